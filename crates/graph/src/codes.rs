@@ -1,0 +1,73 @@
+//! Every class of mistake that this crate reports; each has a fixture in `tests/fixtures`.
+
+use tyndall_document::Code;
+
+macro_rules! codes {
+    ($($(#[doc = $doc:literal])+ $name:ident = $text:literal;)+) => {
+        $($(#[doc = $doc])+ pub const $name: Code = Code($text);)+
+
+        /// All of them, in the order of this file.
+        pub const CODES: &[Code] = &[$($name),+];
+    };
+}
+
+codes! {
+    /// A name does not match `[a-z][a-z0-9_]*`.
+    BAD_NAME = "bad-name";
+    /// The file's `version` is one that this program does not know yet.
+    NEWER_VERSION = "newer-version";
+    /// The file's `version` never existed.
+    BAD_VERSION = "bad-version";
+    /// A size is 0, or more than 32 bits hold.
+    BAD_SIZE = "bad-size";
+    /// The graph has no outputs.
+    NO_OUTPUTS = "no-outputs";
+    /// `use` names a pass that no plugin has.
+    UNKNOWN_PASS = "unknown-pass";
+    /// A pass of this kind has no port of this name.
+    UNKNOWN_PORT = "unknown-port";
+    /// A pass of this kind has no parameter of this name, or the graph has none.
+    UNKNOWN_PARAMETER = "unknown-parameter";
+    /// `pass.port` names a pass that the graph does not have.
+    UNKNOWN_REFERENCE = "unknown-reference";
+    /// A text that should be `pass.port` is not.
+    BAD_REFERENCE = "bad-reference";
+    /// An input is named as if something could be read from it.
+    NOT_AN_OUTPUT = "not-an-output";
+    /// An output is named as if it could be fed.
+    NOT_AN_INPUT = "not-an-input";
+    /// A required input is not fed.
+    MISSING_INPUT = "missing-input";
+    /// A texture is fed to a buffer, or the like.
+    WRONG_KIND = "wrong-kind";
+    /// A texture of another dimension is fed.
+    WRONG_DIMENSION = "wrong-dimension";
+    /// A texture is fed whose channels mean something else.
+    WRONG_CLASS = "wrong-class";
+    /// A texture of another format is fed.
+    WRONG_FORMAT = "wrong-format";
+    /// A buffer or value with elements of another type is fed.
+    WRONG_ELEMENT = "wrong-element";
+    /// The units of both ends of a connection differ.
+    WRONG_UNIT = "wrong-unit";
+    /// A port has another size than its reader demands.
+    WRONG_SIZE = "wrong-size";
+    /// Passes wait for each other.
+    CYCLE = "cycle";
+    /// A value lies outside its parameter's range.
+    OUT_OF_RANGE = "out-of-range";
+    /// A word is not one of those to choose from.
+    UNKNOWN_CHOICE = "unknown-choice";
+    /// `$name` names a parameter that the graph does not have.
+    UNKNOWN_NAME = "unknown-name";
+    /// `$name` names a parameter whose type does not fit.
+    WRONG_REFERENCE_TYPE = "wrong-reference-type";
+    /// A parameter that sets a size changes from frame to frame.
+    LIVE_SIZE = "live-size";
+    /// Nothing uses a parameter of the graph.
+    UNUSED_PARAMETER = "unused-parameter";
+    /// The graph has no output of this name.
+    UNKNOWN_OUTPUT = "unknown-output";
+    /// A command-line argument is not of the form that it must have.
+    BAD_ARGUMENT = "bad-argument";
+}

@@ -1,0 +1,219 @@
+//! A graph whose every name has been resolved and every value checked.
+
+use std::sync::Arc;
+
+use petgraph::graph::{DiGraph, NodeIndex};
+use rustc_hash::FxHashMap;
+use tyndall_document::{Diagnostic, Place, Source, Span, near};
+
+use crate::catalogue::Kind;
+use crate::codes;
+use crate::descriptor::{ParamValue, PassDescriptor, PortDescriptor};
+use crate::table::Table;
+
+/// A typed graph: passes joined by connections between their ports, as the file has them.
+///
+/// Made by [`validate`](crate::validate); never changed afterwards.
+#[derive(Debug)]
+pub struct Graph {
+    /// The file that it came from.
+    pub source: Arc<Source>,
+    /// What the file says it is for.
+    pub about: String,
+    /// The scene that the file names: a path that is relative to the working directory (or absolute).
+    pub scene: Option<String>,
+    /// Size of the frame in pixels: that of the overrides, else of the file, else 640×480.
+    pub size: (u32, u32),
+    /// Graph parameters with the values that they have after overrides, in file order.
+    pub params: Vec<GraphParam>,
+    /// Passes in file order, and connections from the pass that writes to the pass that reads.
+    pub passes: DiGraph<Pass, Connection>,
+    /// Outputs in file order.
+    pub outputs: Vec<(String, PortRef)>,
+    pub(crate) names: FxHashMap<String, u32>,
+    /// Where the parameters that set sizes are set; of one that is not, its pass.
+    pub(crate) size_param_places: FxHashMap<ParamRef, Place>,
+    pub(crate) table: Table,
+}
+
+/// One pass of a graph.
+#[derive(Debug)]
+pub struct Pass {
+    /// Name in the file.
+    pub name: String,
+    /// Where the name stands.
+    pub span: Span,
+    /// Settings, one for each of the descriptor's parameters.
+    pub params: Vec<ParamSetting>,
+    /// Whether it is switched on.
+    pub enabled: bool,
+    /// The graph parameter that switches it, where one does.
+    pub switch: Option<String>,
+    pub(crate) kind: Arc<Kind>,
+}
+
+impl Pass {
+    /// What the pass declares.
+    pub fn descriptor(&self) -> &Arc<PassDescriptor> {
+        &self.kind.descriptor
+    }
+}
+
+/// What a parameter of a pass is set to.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ParamSetting {
+    /// A value.
+    Value(ParamValue),
+    /// The number of the frame.
+    Frame,
+    /// The time of the frame in seconds: its number / 24.
+    Time,
+}
+
+/// An edge of the graph.
+#[derive(Debug, Clone)]
+pub struct Connection {
+    /// Index of the port among the writing pass's ports.
+    pub from: u32,
+    /// Index of the port among the reading pass's ports.
+    pub to: u32,
+    /// It carries what was written in the frame before, and so orders nothing.
+    pub history: bool,
+    /// Where `"pass.port"` stands.
+    pub span: Span,
+}
+
+/// A port of a pass, by index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct PortRef {
+    /// Index of the pass in the graph.
+    pub pass: u32,
+    /// Index of the port in the pass's descriptor.
+    pub port: u32,
+}
+
+/// A parameter of a pass, by index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ParamRef {
+    /// Index of the pass in the graph.
+    pub pass: u32,
+    /// Index of the parameter in the pass's descriptor.
+    pub param: u32,
+}
+
+/// A parameter of the graph.
+#[derive(Debug, Clone)]
+pub struct GraphParam {
+    /// Name, without `$`.
+    pub name: String,
+    /// Its value after overrides. A text is a [`ParamValue::Choice`] here; where it names a file, the settings that
+    /// use it hold the path.
+    pub value: ParamValue,
+    /// The parameters of passes that are set to it.
+    pub uses: Vec<ParamRef>,
+}
+
+impl Graph {
+    /// The pass at this index.
+    pub fn pass(&self, index: u32) -> &Pass {
+        &self.passes[NodeIndex::new(index as usize)]
+    }
+
+    /// Index of the pass of this name.
+    pub fn pass_named(&self, name: &str) -> Option<u32> {
+        self.names.get(name).copied()
+    }
+
+    /// What the pass declares about this port.
+    pub fn port(&self, port: PortRef) -> &PortDescriptor {
+        &self.pass(port.pass).descriptor().ports[port.port as usize]
+    }
+
+    /// `pass.port`.
+    pub fn port_name(&self, port: PortRef) -> String {
+        format!("{}.{}", self.pass(port.pass).name, self.port(port).name)
+    }
+
+    /// The port that a name means: an output of the graph, or `pass.port` with a port that the pass writes.
+    ///
+    /// # Errors
+    /// `unknown-output`, `unknown-reference`, `unknown-port` or `not-an-output` at `place`, with a near name where there
+    /// is one.
+    pub fn find(&self, name: &str, place: Place) -> Result<PortRef, Diagnostic> {
+        let Some((pass_name, port_name)) = name.split_once('.') else { return self.find_output(name, place) };
+        let Some(pass) = self.pass_named(pass_name) else {
+            let message = format!("there is no pass named `{pass_name}`");
+            let near = near(pass_name, self.pass_names()).map(|near| format!("did you mean `{near}.{port_name}`?"));
+            return Err(suggest(Diagnostic::error(codes::UNKNOWN_REFERENCE, place, message), near));
+        };
+        let descriptor = self.pass(pass).descriptor();
+        match descriptor.ports.iter().position(|port| port.name == port_name) {
+            Some(port) if descriptor.ports[port].role.is_output() => Ok(PortRef { pass, port: port as u32 }),
+            Some(_) => {
+                let message = format!("`{port_name}` is an input of `{}`, and nothing can be read from it", descriptor.name);
+                Err(Diagnostic::error(codes::NOT_AN_OUTPUT, place, message))
+            }
+            None => {
+                let message = format!("`{}` has no port named `{port_name}`", descriptor.name);
+                let near = near(port_name, descriptor.outputs().map(|port| port.name.as_str()))
+                    .map(|near| format!("did you mean `{pass_name}.{near}`?"));
+                Err(suggest(Diagnostic::error(codes::UNKNOWN_PORT, place, message), near))
+            }
+        }
+    }
+
+    fn find_output(&self, name: &str, place: Place) -> Result<PortRef, Diagnostic> {
+        if let Some((_, port)) = self.outputs.iter().find(|(output, _)| output == name) {
+            return Ok(*port);
+        }
+        let message = format!("the graph has no output named `{name}`");
+        let near = near(name, self.outputs.iter().map(|(output, _)| output.as_str()));
+        let suggestion = match near {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("its outputs are {}; `pass.port` names any port", self.output_names()),
+        };
+        Err(Diagnostic::error(codes::UNKNOWN_OUTPUT, place, message).suggest(suggestion))
+    }
+
+    /// The parameters that a name means: one for `pass.parameter`, all that use it for a parameter of the graph, none
+    /// where the name is unknown.
+    pub fn find_params(&self, name: &str) -> Vec<ParamRef> {
+        let Some((pass, param)) = name.split_once('.') else {
+            return self.params.iter().find(|param| param.name == name).map(|param| param.uses.clone()).unwrap_or_default();
+        };
+        let found = self.pass_named(pass).and_then(|pass| {
+            let param = self.pass(pass).descriptor().params.iter().position(|descriptor| descriptor.name == param)?;
+            Some(ParamRef { pass, param: param as u32 })
+        });
+        found.into_iter().collect()
+    }
+
+    /// The place of a span of the graph's file.
+    pub fn place(&self, span: Span) -> Place {
+        Place::Text { source: self.source.clone(), span }
+    }
+
+    /// The value of an integer parameter that sets a size. One that changes with the frame was refused before.
+    pub(crate) fn size_param(&self, pass: u32, param: u32) -> i64 {
+        match self.pass(pass).params.get(param as usize) {
+            Some(ParamSetting::Value(ParamValue::Integer(value))) => *value,
+            _ => 1,
+        }
+    }
+
+    pub(crate) fn pass_names(&self) -> impl Iterator<Item = &str> {
+        self.passes.node_weights().map(|pass| pass.name.as_str())
+    }
+
+    fn output_names(&self) -> String {
+        let names: Vec<String> = self.outputs.iter().map(|(name, _)| format!("`{name}`")).collect();
+        names.join(", ")
+    }
+}
+
+fn suggest(diagnostic: Diagnostic, suggestion: Option<String>) -> Diagnostic {
+    match suggestion {
+        Some(suggestion) => diagnostic.suggest(suggestion),
+        None => diagnostic,
+    }
+}

@@ -1,0 +1,39 @@
+//! Graph files, from text to an immutable plan, without a GPU.
+//!
+//! A graph goes through four steps, and each has a type of its own:
+//!
+//! | step | function | gives |
+//! | --- | --- | --- |
+//! | text to spanned tree | [`read`] | [`GraphFile`] |
+//! | tree to typed graph, every mistake collected | [`validate`] | [`Graph`] |
+//! | graph to order, slots and sizes | [`plan`](plan()) | [`Plan`] |
+//! | plan to something for people | [`show`], [`explain`](explain()) | text, SVG, dot, JSON |
+//!
+//! Passes are known by their [`descriptor`]s, which a [`Catalogue`] holds. Scene data are opaque names here, and no GPU
+//! type occurs.
+
+mod catalogue;
+pub mod codes;
+pub mod descriptor;
+mod explain;
+mod file;
+mod graph;
+mod overrides;
+mod plan;
+pub mod show;
+mod signature;
+mod table;
+mod validate;
+
+pub use catalogue::Catalogue;
+pub use codes::CODES;
+pub use explain::explain;
+pub use file::{GraphFile, InputEntry, OutputEntry, ParamEntry, PassEntry, Spanned, Switch, read};
+pub use graph::{Connection, Graph, GraphParam, ParamRef, ParamSetting, Pass, PortRef};
+pub use overrides::{Override, Overrides};
+pub use plan::{
+    Bytes, ClassBytes, CullReason, Culled, Keep, Order, Plan, PlanOptions, PlannedPass, PlannedPort, Resource, Roots, Slot,
+    SlotKind, Step, Usages, plan,
+};
+pub use signature::DescriptorError;
+pub use validate::{validate, validate_with};

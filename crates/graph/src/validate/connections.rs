@@ -1,0 +1,163 @@
+//! Inputs of passes, and the ports that feed them.
+
+use std::sync::Arc;
+
+use petgraph::graph::NodeIndex;
+use tyndall_document::{Diagnostic, Span};
+
+use super::Validator;
+use crate::catalogue::Kind;
+use crate::codes;
+use crate::descriptor::Role;
+use crate::file::{InputEntry, Spanned};
+use crate::graph::{Connection, PortRef};
+use crate::signature::RoleKind;
+use crate::table::Feed;
+
+impl Validator<'_> {
+    /// Connects what the file feeds to a pass, and reports what it leaves out.
+    pub(super) fn connect(&mut self, pass: u32) {
+        let file = self.file;
+        let entry = &file.passes[pass as usize];
+        let kind = self.kind_of(pass);
+        let known = self.is_known_pass(pass);
+        let mut named = vec![false; kind.signature.ports.len()];
+        for input in &entry.inputs {
+            let source = input.from.as_ref().and_then(|from| self.source(from));
+            if !known {
+                continue;
+            }
+            let Some(port) = self.input(&kind, input) else { continue };
+            named[port as usize] = true;
+            if let Some((from, span)) = source {
+                self.join(from, PortRef { pass, port }, kind.signature.ports[port as usize].role, span);
+            }
+        }
+        for (index, port) in kind.signature.ports.iter().enumerate() {
+            let number = self.table.port(pass, index as u32);
+            match port.role {
+                RoleKind::Output => {}
+                _ if named[index] => {}
+                RoleKind::Optional => self.written[number as usize] = Feed::constant(number),
+                RoleKind::Input | RoleKind::History | RoleKind::InOut => {
+                    self.missing_input(&kind, index, &entry.name);
+                }
+            }
+        }
+    }
+
+    fn join(&mut self, from: PortRef, to: PortRef, role: RoleKind, span: Span) {
+        let history = role == RoleKind::History;
+        let number = self.table.port(to.pass, to.port);
+        self.written[number as usize] = Feed::port(self.table.port(from.pass, from.port));
+        if history {
+            self.table.history.push(number);
+        }
+        let (writer, reader) = (NodeIndex::new(from.pass as usize), NodeIndex::new(to.pass as usize));
+        self.passes.add_edge(writer, reader, Connection { from: from.port, to: to.port, history, span });
+    }
+
+    /// Index of the input that an entry names.
+    fn input(&mut self, kind: &Kind, input: &InputEntry) -> Option<u32> {
+        let descriptor = &kind.descriptor;
+        let name = &input.name.value;
+        let found = descriptor.ports.iter().position(|port| port.name == *name);
+        let place = self.place(input.name.span);
+        match found {
+            Some(port) if descriptor.ports[port].role.is_input() => return Some(port as u32),
+            Some(_) => {
+                let message = format!("`{name}` is an output of `{}`, and cannot be fed", descriptor.name);
+                let inputs: Vec<String> = descriptor.inputs().map(|port| format!("`{}`", port.name)).collect();
+                let suggestion = match inputs.is_empty() {
+                    true => "the pass has no inputs".to_owned(),
+                    false => format!("its inputs are {}", inputs.join(", ")),
+                };
+                self.report(Diagnostic::error(codes::NOT_AN_INPUT, place, message).suggest(suggestion));
+            }
+            None => {
+                let message = format!("`{}` has no input named `{name}`", descriptor.name);
+                let inputs = descriptor.inputs().map(|port| port.name.as_str());
+                self.report_unknown((codes::UNKNOWN_PORT, place), message, name, inputs, str::to_owned);
+            }
+        }
+        None
+    }
+
+    /// The port that `pass.port` means, and where it stands.
+    pub(super) fn source(&mut self, from: &Spanned<String>) -> Option<(PortRef, Span)> {
+        let Some((pass_name, port_name)) = from.value.split_once('.') else {
+            self.bad_reference(from);
+            return None;
+        };
+        let Some(pass) = self.names.get(pass_name).copied() else {
+            self.unknown_reference(from, pass_name, port_name);
+            return None;
+        };
+        let kind = self.kind_of(pass);
+        let ports = &kind.descriptor.ports;
+        match ports.iter().position(|port| port.name == port_name) {
+            Some(port) if ports[port].role.is_output() => Some((PortRef { pass, port: port as u32 }, from.span)),
+            _ if !self.is_known_pass(pass) => None,
+            found => {
+                self.no_output(from, pass, &kind, found.is_some());
+                None
+            }
+        }
+    }
+
+    fn bad_reference(&mut self, from: &Spanned<String>) {
+        let message = format!("`{}` names no port", from.value);
+        let place = self.place(from.span);
+        let mut diagnostic = Diagnostic::error(codes::BAD_REFERENCE, place, message);
+        let pass = self.names.get(&from.value).map(|pass| self.kind_of(*pass));
+        let port = pass.as_ref().and_then(|kind| kind.descriptor.outputs().next());
+        diagnostic = diagnostic.suggest(match port {
+            Some(port) => format!("write pass.port: `{}.{}`", from.value, port.name),
+            None => "write pass.port".to_owned(),
+        });
+        self.report(diagnostic);
+    }
+
+    fn unknown_reference(&mut self, from: &Spanned<String>, pass: &str, port: &str) {
+        let message = format!("there is no pass named `{pass}`");
+        let place = self.place(from.span);
+        let file = self.file;
+        let names = file.passes.iter().map(|pass| pass.name.value.as_str());
+        self.report_unknown((codes::UNKNOWN_REFERENCE, place), message, pass, names, |near| format!("{near}.{port}"));
+    }
+
+    fn no_output(&mut self, from: &Spanned<String>, pass: u32, kind: &Kind, is_input: bool) {
+        let file = self.file;
+        let entry = &file.passes[pass as usize];
+        let (pass_name, kind_name) = (&entry.name.value, &kind.descriptor.name);
+        let port = &from.value[pass_name.len() + 1..];
+        let place = self.place(from.span);
+        let outputs = kind.descriptor.outputs().map(|port| port.name.as_str());
+        if is_input {
+            let message = format!("`{port}` is an input of `{kind_name}`, and nothing can be read from it");
+            let outputs: Vec<String> = outputs.map(|port| format!("`{pass_name}.{port}`")).collect();
+            let related = self.place(entry.name.span);
+            let diagnostic = Diagnostic::error(codes::NOT_AN_OUTPUT, place, message)
+                .suggest(format!("what it writes is {}", outputs.join(", ")))
+                .relate(related, format!("`{pass_name}` stands here"));
+            return self.report(diagnostic);
+        }
+        let message = format!("`{kind_name}` has no output named `{port}`");
+        self.report_unknown((codes::UNKNOWN_PORT, place), message, port, outputs, |near| format!("{pass_name}.{near}"));
+    }
+
+    fn missing_input(&mut self, kind: &Kind, port: usize, name: &Spanned<String>) {
+        let port = &kind.descriptor.ports[port];
+        let message = format!("`{}` needs the input `{}` of `{}`", name.value, port.name, kind.descriptor.name);
+        let place = self.place(name.span);
+        let suggestion = match &port.role {
+            Role::History(_) => format!("feed it with what it should hold of the frame before: \"{}\": \"pass.port\"", port.name),
+            _ => format!("add \"{}\": \"pass.port\" to its inputs", port.name),
+        };
+        self.report(Diagnostic::error(codes::MISSING_INPUT, place, message).suggest(suggestion));
+    }
+
+    pub(super) fn kind_of(&self, pass: u32) -> Arc<Kind> {
+        self.table.kinds[self.table.kind_of[pass as usize] as usize].clone()
+    }
+}
