@@ -1,0 +1,11 @@
+//! naga's own failures.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Runs a step of naga. Where naga panics (a bug of its own, which a shader's text can reach), gives what it said.
+pub fn guarded<T>(step: impl FnOnce() -> T) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(step)).map_err(|payload| {
+        let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
+        text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_else(|| "without a message".to_owned())
+    })
+}

@@ -1,0 +1,27 @@
+//! Names of variables that are no ports.
+
+/// The uniform variable whose members are parameters.
+pub const PARAMS: &str = "params";
+
+/// A sampler that every shader may declare by name: `var linear_clamp: sampler;`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sampler {
+    /// Name of the variable.
+    pub name: &'static str,
+    /// Interpolates: its binding is a filtering one, and what it samples must be filterable.
+    pub filtering: bool,
+    /// Repeats outside of 0..1; otherwise the edge goes on.
+    pub repeats: bool,
+}
+
+/// The samplers that there are. `nearest_clamp` must be bound as a non-filtering sampler.
+pub const SAMPLERS: [Sampler; 3] = [
+    Sampler { name: "linear_clamp", filtering: true, repeats: false },
+    Sampler { name: "nearest_clamp", filtering: false, repeats: false },
+    Sampler { name: "linear_repeat", filtering: true, repeats: true },
+];
+
+/// The sampler of this name.
+pub fn sampler(name: &str) -> Option<&'static Sampler> {
+    SAMPLERS.iter().find(|sampler| sampler.name == name)
+}
