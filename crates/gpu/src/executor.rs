@@ -1,0 +1,324 @@
+//! Runs a plan, frame after frame.
+//!
+//! All that can be decided once is decided when the executor is made: textures, pipelines, bindings, the fixed part of
+//! every fingerprint. A frame walks the plan's steps by index; it allocates nothing of its own and creates no GPU
+//! object but its command encoder.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use tyndall_graph::descriptor::ParamValue;
+use tyndall_graph::ParamSetting;
+use tyndall_graph::{Plan, SlotKind, Step};
+
+use crate::bindings::{Bound, PipelineCache};
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::freshness::Freshness;
+use crate::readback::{PortData, read};
+use crate::scene::SceneBuffers;
+use crate::setup::{Program, Programs, Recorder, Setup};
+use crate::slots::{Physical, create_all, fill, fill_stated};
+use crate::timing::{Stamps, Timing};
+use crate::view::PlannedView;
+
+/// What is wanted of one frame.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct FrameOptions {
+    /// Number of the frame; its time is this over 24 s.
+    pub frame: u32,
+    /// Run every pass, also those whose results are still there.
+    pub everything: bool,
+    /// What is timed on the GPU.
+    pub timing: Timing,
+    /// Also measure the CPU time of each pass.
+    pub cpu_times: bool,
+}
+
+/// What one frame did.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct FrameReport {
+    /// Passes that ran.
+    pub passes_run: usize,
+    /// CPU time to decide, record and submit, in microseconds.
+    pub cpu_us: f64,
+    /// GPU time of what [`Timing`] names, in microseconds.
+    pub gpu_us: Option<f64>,
+}
+
+/// Counts and times of one pass.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct PassCounters {
+    /// Frames in which it ran.
+    pub runs: u64,
+    /// CPU time to record it in the last frame that measured, in microseconds.
+    pub cpu_us: f64,
+}
+
+/// A plan on a device.
+pub struct Executor {
+    gpu: Arc<Gpu>,
+    plan: Arc<Plan>,
+    slots: Vec<Physical>,
+    programs: Vec<Box<dyn Program>>,
+    values: Vec<Vec<ParamValue>>,
+    live: Vec<(usize, usize, ParamSetting)>,
+    samplers: [wgpu::Sampler; 3],
+    stamps: Option<Stamps>,
+    freshness: Freshness,
+    counters: Vec<PassCounters>,
+    /// The scene's buffers; set them before the first frame.
+    pub scene: SceneBuffers,
+}
+
+impl Executor {
+    /// Allocates the plan's resources and makes its passes ready. Call [`crate::memory::check`] first.
+    ///
+    /// # Errors
+    /// What the device or a pass reports; nothing is kept then.
+    pub fn new(
+        gpu: &Arc<Gpu>,
+        plan: Arc<Plan>,
+        programs: &dyn Programs,
+        cache: &mut PipelineCache,
+        mut scene: SceneBuffers,
+    ) -> Result<Self, GpuError> {
+        let slots = create_all(gpu, &plan)?;
+        fill_stated(gpu, &plan, &slots);
+        let values: Vec<Vec<ParamValue>> = 
+            positions(&plan).map(|pass| plan.params(pass).iter().map(at_start).collect()).collect();
+        let mut ready = Vec::with_capacity(plan.passes.len());
+        for (position, values) in positions(&plan).zip(&values) {
+            let pass = PlannedView { plan: &plan, position };
+            let mut setup = Setup { gpu, pass, values, scene: &mut scene, cache };
+            ready.push(programs.program(&mut setup)?);
+        }
+        let live = live_settings(&plan);
+        let freshness = Freshness::new(&plan, programs, &mut scene);
+        let samplers = samplers(gpu)?;
+        let stamps = Stamps::new(gpu)?;
+        let counters = vec![PassCounters::default(); plan.passes.len()];
+        let gpu = gpu.clone();
+        Ok(Self { gpu, plan, slots, programs: ready, values, live, samplers, stamps, freshness, counters, scene })
+    }
+
+    /// The plan that runs.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// The device it runs on.
+    pub fn gpu(&self) -> &Arc<Gpu> {
+        &self.gpu
+    }
+
+    /// Counts and times of the passes, in the plan's order.
+    pub fn counters(&self) -> &[PassCounters] {
+        &self.counters
+    }
+
+    /// Gives the scene's buffers back, for the executor of another plan.
+    pub fn into_scene(self) -> SceneBuffers {
+        self.scene
+    }
+
+    /// Changes a parameter from the next frame on: `pass` and `param` as in the plan.
+    ///
+    /// # Errors
+    /// [`GpuError::Pass`] where there is no such parameter, or where it is a part of the pipeline.
+    pub fn set_param(&mut self, pass: &str, param: &str, value: ParamValue) -> Result<(), GpuError> {
+        let refuse = |reason: &str| GpuError::Pass { pass: pass.to_owned(), reason: format!("`{param}` {reason}") };
+        let at = positions(&self.plan).find(|position| self.plan.pass_name(*position) == pass);
+        let at = at.ok_or_else(|| refuse("belongs to no pass of the plan"))?;
+        let descriptor = self.plan.descriptor(at);
+        let index = descriptor.params.iter().position(|candidate| candidate.name == param);
+        let index = index.ok_or_else(|| refuse("is no parameter of it"))?;
+        if descriptor.params[index].fixed {
+            return Err(refuse("is a part of the pipeline: plan anew to change it"));
+        }
+        self.values[at as usize][index] = value;
+        self.live.retain(|&(pass, param, _)| (pass, param) != (at as usize, index));
+        Ok(())
+    }
+
+    /// Fills every transient slot with this value (NaN, say), as if something else had been there.
+    pub fn poison(&mut self, value: f32) {
+        for (slot, physical) in self.plan.slots.iter().zip(&self.slots) {
+            if matches!(slot.kind, SlotKind::Transient | SlotKind::Kept) {
+                fill(&self.gpu, &slot.resource, physical, [value; 4]);
+            }
+        }
+        self.freshness.forget();
+    }
+
+    /// Records and submits one frame. Does not wait for it unless it is timed on the GPU.
+    ///
+    /// # Errors
+    /// A lost device, or what a pass reports.
+    pub fn frame(&mut self, options: FrameOptions) -> Result<FrameReport, GpuError> {
+        self.gpu.check()?;
+        let start = Instant::now();
+        self.set_live(options.frame);
+        let passes_run = self.freshness.decide(
+            &self.plan,
+            &self.values,
+            &self.scene,
+            &self.programs,
+            options.everything,
+        );
+        let descriptor = wgpu::CommandEncoderDescriptor { label: Some("frame") };
+        let mut encoder = self.gpu.device.create_command_encoder(&descriptor);
+        self.record(&mut encoder, options)?;
+        self.gpu.queue.submit([encoder.finish()]);
+        let cpu_us = start.elapsed().as_secs_f64() * 1e6;
+        self.freshness.remember(&self.plan);
+        let gpu_us = match (&self.stamps, options.timing) {
+            (None, _) | (_, Timing::Off) => None,
+            (Some(stamps), _) => stamps.microseconds(&self.gpu)?,
+        };
+        self.gpu.check()?;
+        Ok(FrameReport { passes_run, cpu_us, gpu_us })
+    }
+
+    fn record(&mut self, encoder: &mut wgpu::CommandEncoder, options: FrameOptions) -> Result<(), GpuError> {
+        let Self { gpu, plan, slots, programs, values, samplers, stamps, freshness, counters, scene, .. } = self;
+        if let Some(stamps) = stamps.as_mut() {
+            stamps.reset();
+        }
+        let mark_frame = |stamps: &mut Option<Stamps>, encoder: &mut wgpu::CommandEncoder| {
+            if let (Some(stamps), Timing::Frame) = (stamps.as_mut(), options.timing) {
+                stamps.mark(encoder);
+            }
+        };
+        mark_frame(stamps, encoder);
+        for step in &plan.steps {
+            match *step {
+                Step::Run { pass: position } if freshness.runs(position as usize) => {
+                    let pass = position as usize;
+                    let start = options.cpu_times.then(Instant::now);
+                    let timed = options.timing == Timing::Pass(pass);
+                    let mut recorder = Recorder {
+                        encoder,
+                        bound: Bound { gpu, slots, scene, samplers },
+                        pass: PlannedView { plan, position },
+                        values: &values[pass],
+                        stamps: if timed { stamps.as_mut() } else { None },
+                    };
+                    programs[pass].record(&mut recorder)?;
+                    counters[pass].runs += 1;
+                    if let Some(start) = start {
+                        counters[pass].cpu_us = start.elapsed().as_secs_f64() * 1e6;
+                    }
+                }
+                Step::Run { .. } => {}
+                Step::Copy { pass, from, to } => {
+                    if freshness.runs(pass as usize) {
+                        copy(encoder, &slots[from as usize], &slots[to as usize]);
+                    }
+                }
+                Step::Carry { from, to } => copy(encoder, &slots[from as usize], &slots[to as usize]),
+            }
+        }
+        mark_frame(stamps, encoder);
+        if let (Some(stamps), true) = (stamps.as_ref(), options.timing != Timing::Off) {
+            stamps.resolve(encoder);
+        }
+        Ok(())
+    }
+
+    /// The content of a port after the last frame. Waits for the GPU.
+    ///
+    /// # Errors
+    /// [`GpuError::Pass`] where other ports have used the port's memory since (it was no root of the plan); a lost
+    /// device.
+    pub fn read(&self, port: u32) -> Result<PortData, GpuError> {
+        let name = self.plan.port_name(port);
+        if !self.freshness.holds(&self.plan, port as usize) {
+            let reason = "its memory was used again: ask for it when planning".to_owned();
+            return Err(GpuError::Pass { pass: name, reason });
+        }
+        let slot = self.plan.ports[port as usize].slot as usize;
+        read(&self.gpu, &name, self.plan.resource(port), &self.slots[slot])
+    }
+
+    /// The content of a slot, whatever it holds: constants that flow out of passes which are switched off.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub fn read_slot(&self, slot: usize) -> Result<PortData, GpuError> {
+        read(&self.gpu, "a constant", &self.plan.slots[slot].resource, &self.slots[slot])
+    }
+
+    fn set_live(&mut self, frame: u32) {
+        for (pass, param, setting) in &self.live {
+            self.values[*pass][*param] = match (setting, &self.values[*pass][*param]) {
+                (ParamSetting::Frame, ParamValue::Integer(_)) => ParamValue::Integer(i64::from(frame)),
+                (ParamSetting::Frame, _) => ParamValue::Float(f64::from(frame)),
+                (_, _) => ParamValue::Float(f64::from(frame) / FRAMES_PER_SECOND),
+            };
+        }
+    }
+}
+
+/// Frame n shows time n over this.
+pub const FRAMES_PER_SECOND: f64 = 24.0;
+
+/// Positions of a plan's passes.
+fn positions(plan: &Plan) -> std::ops::Range<u32> {
+    0..plan.passes.len() as u32
+}
+
+fn at_start(setting: &ParamSetting) -> ParamValue {
+    match setting {
+        ParamSetting::Value(value) => value.clone(),
+        ParamSetting::Frame => ParamValue::Integer(0),
+        ParamSetting::Time => ParamValue::Float(0.0),
+    }
+}
+
+fn live_settings(plan: &Plan) -> Vec<(usize, usize, ParamSetting)> {
+    let mut live = Vec::new();
+    for pass in positions(plan) {
+        for (param, setting) in plan.params(pass).iter().enumerate() {
+            if !matches!(setting, ParamSetting::Value(_)) {
+                live.push((pass as usize, param, setting.clone()));
+            }
+        }
+    }
+    live
+}
+
+fn copy(encoder: &mut wgpu::CommandEncoder, from: &Physical, to: &Physical) {
+    match (from, to) {
+        (Physical::Texture { texture: from, .. }, Physical::Texture { texture: to, .. }) => {
+            encoder.copy_texture_to_texture(from.as_image_copy(), to.as_image_copy(), from.size());
+        }
+        (Physical::Buffer(from), Physical::Buffer(to)) => {
+            encoder.copy_buffer_to_buffer(from, 0, to, 0, from.size());
+        }
+        // The planner copies between slots of equal resources only.
+        _ => {}
+    }
+}
+
+fn samplers(gpu: &Gpu) -> Result<[wgpu::Sampler; 3], GpuError> {
+    let sampler = |device: &wgpu::Device, label, address, filter| {
+        device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some(label),
+            address_mode_u: address,
+            address_mode_v: address,
+            address_mode_w: address,
+            mag_filter: filter,
+            min_filter: filter,
+            ..Default::default()
+        })
+    };
+    let (clamp, repeat) = (wgpu::AddressMode::ClampToEdge, wgpu::AddressMode::Repeat);
+    gpu.create("samplers", 3, |device| {
+        [
+            sampler(device, "linear_clamp", clamp, wgpu::FilterMode::Linear),
+            sampler(device, "nearest_clamp", clamp, wgpu::FilterMode::Nearest),
+            sampler(device, "linear_repeat", repeat, wgpu::FilterMode::Linear),
+        ]
+    })
+}

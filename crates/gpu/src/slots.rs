@@ -1,0 +1,171 @@
+//! The plan's slots as textures and buffers.
+
+use half::f16;
+use tyndall_graph::descriptor::{Dimension, Format};
+use tyndall_graph::{Plan, Resource, Slot, SlotKind};
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+
+/// One physical resource of a plan.
+pub(crate) enum Physical {
+    Texture { texture: wgpu::Texture, view: wgpu::TextureView },
+    Buffer(wgpu::Buffer),
+}
+
+impl Physical {
+    pub(crate) fn texture(&self) -> Option<&wgpu::Texture> {
+        match self {
+            Physical::Texture { texture, .. } => Some(texture),
+            Physical::Buffer(_) => None,
+        }
+    }
+}
+
+/// wgpu's name of a format.
+pub(crate) fn texture_format(format: Format) -> wgpu::TextureFormat {
+    match format {
+        Format::R32Float => wgpu::TextureFormat::R32Float,
+        Format::Rg32Float => wgpu::TextureFormat::Rg32Float,
+        Format::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
+        Format::R16Float => wgpu::TextureFormat::R16Float,
+        Format::Rg16Float => wgpu::TextureFormat::Rg16Float,
+        Format::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
+        Format::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
+        Format::R32Uint => wgpu::TextureFormat::R32Uint,
+        Format::Rg32Uint => wgpu::TextureFormat::Rg32Uint,
+        Format::Rgba32Uint => wgpu::TextureFormat::Rgba32Uint,
+        Format::Depth32Float => wgpu::TextureFormat::Depth32Float,
+    }
+}
+
+/// wgpu's name of the dimension of a view.
+pub(crate) fn view_dimension(dimension: Dimension) -> wgpu::TextureViewDimension {
+    match dimension {
+        Dimension::D2 => wgpu::TextureViewDimension::D2,
+        Dimension::D2Array => wgpu::TextureViewDimension::D2Array,
+        Dimension::D3 => wgpu::TextureViewDimension::D3,
+    }
+}
+
+/// Creates every slot of a plan, labelled with the ports that live in it.
+pub(crate) fn create_all(gpu: &Gpu, plan: &Plan) -> Result<Vec<Physical>, GpuError> {
+    plan.slots.iter().enumerate().map(|(index, slot)| create(gpu, &slot_name(plan, index), slot)).collect()
+}
+
+/// The ports that live in a slot, `a.x | b.y`; what else it is where none does.
+pub(crate) fn slot_name(plan: &Plan, index: usize) -> String {
+    let names: Vec<String> = plan.ports_in(index as u32).map(|port| plan.port_name(port)).collect();
+    match plan.slots[index].kind {
+        SlotKind::History { of, .. } => format!("{} (previous)", plan.port_name(of)),
+        _ if names.is_empty() => "constant".to_owned(),
+        _ => names.join(" | "),
+    }
+}
+
+fn create(gpu: &Gpu, label: &str, slot: &Slot) -> Result<Physical, GpuError> {
+    match slot.resource {
+        Resource::Texture { dimension, format, width, height, depth_or_layers } => {
+            let descriptor = wgpu::TextureDescriptor {
+                label: Some(label),
+                size: wgpu::Extent3d { width, height, depth_or_array_layers: depth_or_layers },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: match dimension {
+                    Dimension::D3 => wgpu::TextureDimension::D3,
+                    Dimension::D2 | Dimension::D2Array => wgpu::TextureDimension::D2,
+                },
+                format: texture_format(format),
+                usage: usages(slot),
+                view_formats: &[],
+            };
+            let view = wgpu::TextureViewDescriptor {
+                label: Some(label),
+                dimension: Some(view_dimension(dimension)),
+                ..Default::default()
+            };
+            gpu.create(label, 2, |device| {
+                let texture = device.create_texture(&descriptor);
+                let view = texture.create_view(&view);
+                Physical::Texture { texture, view }
+            })
+        }
+        Resource::Buffer { bytes, .. } => gpu.create(label, 1, |device| {
+            Physical::Buffer(device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: bytes.next_multiple_of(16),
+                usage: wgpu::BufferUsages::STORAGE
+                    | wgpu::BufferUsages::UNIFORM
+                    | wgpu::BufferUsages::INDIRECT
+                    | wgpu::BufferUsages::COPY_SRC
+                    | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            }))
+        }),
+    }
+}
+
+/// Whoever writes a port may store into it or draw into it, and read its own outputs in a later step; so a slot has
+/// every usage that its format allows.
+fn usages(slot: &Slot) -> wgpu::TextureUsages {
+    let usages =
+        wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::COPY_DST | wgpu::TextureUsages::TEXTURE_BINDING;
+    match slot.resource {
+        Resource::Texture { format: Format::Depth32Float, .. } => usages | wgpu::TextureUsages::RENDER_ATTACHMENT,
+        Resource::Texture { dimension: Dimension::D3, .. } => usages | wgpu::TextureUsages::STORAGE_BINDING,
+        _ => usages | wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
+    }
+}
+
+/// Fills the slots whose content is stated by the plan: constants, and histories before the first frame.
+pub(crate) fn fill_stated(gpu: &Gpu, plan: &Plan, slots: &[Physical]) {
+    for (slot, physical) in plan.slots.iter().zip(slots) {
+        if let Some(value) = slot.initial() {
+            fill(gpu, &slot.resource, physical, value);
+        }
+    }
+}
+
+/// Writes one value into every texel, or every four bytes of a buffer.
+pub(crate) fn fill(gpu: &Gpu, resource: &Resource, physical: &Physical, value: [f32; 4]) {
+    match (physical, resource) {
+        (Physical::Texture { texture, .. }, Resource::Texture { format, width, height, depth_or_layers, .. }) => {
+            let texel = texel(*format, value);
+            let count = *width as usize * *height as usize * *depth_or_layers as usize;
+            let data = texel.repeat(count);
+            gpu.queue.write_texture(
+                texture.as_image_copy(),
+                &data,
+                wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(width * format.bytes() as u32),
+                    rows_per_image: Some(*height),
+                },
+                texture.size(),
+            );
+        }
+        (Physical::Buffer(buffer), _) => {
+            let data = value[0].to_le_bytes().repeat((buffer.size() / 4) as usize);
+            gpu.queue.write_buffer(buffer, 0, &data);
+        }
+        (Physical::Texture { .. }, Resource::Buffer { .. }) => {}
+    }
+}
+
+/// A value as the bytes of one texel.
+fn texel(format: Format, value: [f32; 4]) -> Vec<u8> {
+    let channels = format.channels() as usize;
+    let value = &value[..channels];
+    match format {
+        Format::R32Float | Format::Rg32Float | Format::Rgba32Float | Format::Depth32Float => {
+            value.iter().flat_map(|v| v.to_le_bytes()).collect()
+        }
+        Format::R16Float | Format::Rg16Float | Format::Rgba16Float => {
+            value.iter().flat_map(|v| f16::from_f32(*v).to_le_bytes()).collect()
+        }
+        Format::Rgba8Unorm => value.iter().map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8).collect(),
+        Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint => {
+            value.iter().flat_map(|v| (*v as u32).to_le_bytes()).collect()
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! GPU times: pairs of timestamps around wgpu passes, resolved after the frame.
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::readback::read_bytes;
+
+/// Pairs of timestamps that one frame can hold.
+const PAIRS: u32 = 32;
+
+/// What is timed on the GPU in a frame. Timestamps around every pass distort what they measure, so it is the whole
+/// frame, or one pass of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Timing {
+    /// Nothing.
+    #[default]
+    Off,
+    /// From the frame's first command to its last.
+    Frame,
+    /// One pass, by its position in the plan.
+    Pass(usize),
+}
+
+/// Timestamps of one frame.
+pub struct Stamps {
+    set: wgpu::QuerySet,
+    resolved: wgpu::Buffer,
+    used: u32,
+    nanoseconds_per_tick: f64,
+}
+
+impl Stamps {
+    /// `None` where the adapter has no timestamps.
+    pub(crate) fn new(gpu: &Gpu) -> Result<Option<Self>, GpuError> {
+        if !gpu.has_timestamps() {
+            return Ok(None);
+        }
+        let nanoseconds_per_tick = f64::from(gpu.queue.get_timestamp_period());
+        gpu.create("timestamps", 2, |device| Self {
+            set: device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: Some("timestamps"),
+                ty: wgpu::QueryType::Timestamp,
+                count: 2 * PAIRS,
+            }),
+            resolved: device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("timestamps"),
+                size: u64::from(2 * PAIRS) * 8,
+                usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
+                mapped_at_creation: false,
+            }),
+            used: 0,
+            nanoseconds_per_tick,
+        })
+        .map(Some)
+    }
+
+    pub(crate) fn reset(&mut self) {
+        self.used = 0;
+    }
+
+    /// The next pair: the set, and the index of its first stamp. Beyond the last pair the last one is used again,
+    /// so that the end of a pass with many dispatches is not lost.
+    pub(crate) fn next(&mut self) -> Option<(&wgpu::QuerySet, u32)> {
+        let pair = self.used.min(PAIRS - 1);
+        self.used = pair + 1;
+        Some((&self.set, 2 * pair))
+    }
+
+    /// An empty compute pass that takes a pair, to mark the start or the end of a frame.
+    pub(crate) fn mark(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        if let Some((set, at)) = self.next() {
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some("timestamp"),
+                timestamp_writes: Some(wgpu::ComputePassTimestampWrites {
+                    query_set: set,
+                    beginning_of_pass_write_index: Some(at),
+                    end_of_pass_write_index: Some(at + 1),
+                }),
+            });
+        }
+    }
+
+    pub(crate) fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
+        if self.used > 0 {
+            encoder.resolve_query_set(&self.set, 0..2 * self.used, &self.resolved, 0);
+        }
+    }
+
+    /// Microseconds from the first stamp to the last, after the frame was submitted. Waits for the GPU.
+    pub(crate) fn microseconds(&self, gpu: &Gpu) -> Result<Option<f64>, GpuError> {
+        if self.used == 0 {
+            return Ok(None);
+        }
+        let size = u64::from(2 * self.used) * 8;
+        let bytes = read_bytes(gpu, "timestamps", size, |encoder, staging| {
+            encoder.copy_buffer_to_buffer(&self.resolved, 0, staging, 0, size);
+        })?;
+        let ticks = bytes.as_chunks().0.iter().map(|eight| u64::from_le_bytes(*eight));
+        let (first, last) = (ticks.clone().min().unwrap_or_default(), ticks.max().unwrap_or_default());
+        Ok(Some((last - first) as f64 * self.nanoseconds_per_tick / 1000.0))
+    }
+}
