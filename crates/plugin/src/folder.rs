@@ -1,0 +1,85 @@
+//! The files of a plugin: embedded in the program, or on disk.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use tyndall_document::{Diagnostic, Place, Source};
+use tyndall_shader::Library;
+
+use crate::codes::UNREADABLE_PLUGIN;
+
+/// Where a plugin's files come from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Origin {
+    /// Compiled into the program.
+    BuiltIn,
+    /// This folder.
+    Folder(PathBuf),
+}
+
+/// A plugin's manifest and shaders.
+#[derive(Debug, Clone)]
+pub struct Folder {
+    /// Where they come from.
+    pub origin: Origin,
+    pub(crate) files: BTreeMap<String, Arc<Source>>,
+}
+
+/// Name of the manifest in a plugin's folder.
+pub(crate) const MANIFEST: &str = "plugin.ron";
+
+impl Folder {
+    /// Files that were compiled in: names and texts. `name` is the plugin's, for messages. See [`crate::folder!`].
+    pub fn embedded(name: &str, files: &[(&str, &str)]) -> Self {
+        let source = |(file, text): &(&str, &str)| {
+            ((*file).to_owned(), Source::new(format!("plugins/{name}/{file}"), (*text).to_owned()))
+        };
+        Self { origin: Origin::BuiltIn, files: files.iter().map(source).collect() }
+    }
+
+    /// The manifest and all WGSL files of a folder on disk (not of folders in it).
+    ///
+    /// # Errors
+    /// A file or the folder that cannot be read.
+    pub fn read(path: &Path) -> Result<Self, Diagnostic> {
+        let unreadable = |error: std::io::Error| {
+            let message = format!("the plugin's folder cannot be read: {error}");
+            Diagnostic::error(UNREADABLE_PLUGIN, Place::File(path.display().to_string()), message)
+        };
+        let mut files = BTreeMap::new();
+        for entry in std::fs::read_dir(path).map_err(unreadable)? {
+            let file = entry.map_err(unreadable)?.path();
+            let Some(name) = file.file_name().and_then(|name| name.to_str()) else { continue };
+            if name == MANIFEST || name.ends_with(".wgsl") {
+                files.insert(name.to_owned(), Source::read(&file)?);
+            }
+        }
+        Ok(Self { origin: Origin::Folder(path.to_owned()), files })
+    }
+
+    /// A file by its name.
+    pub fn file(&self, name: &str) -> Option<&Arc<Source>> {
+        self.files.get(name)
+    }
+
+    /// What the shaders of this folder may import: shared modules, and its own files.
+    pub(crate) fn library(&self, shared: &Library) -> Library {
+        let mut library = shared.clone();
+        for (name, source) in self.files.iter().filter(|(name, _)| name.ends_with(".wgsl")) {
+            library.insert_file(name, source.clone());
+        }
+        library
+    }
+}
+
+/// Embeds a plugin's files: `folder!("core": "plugin.ron", "add.wgsl")`, paths relative to the crate's root.
+#[macro_export]
+macro_rules! folder {
+    ($plugin:literal : $($file:literal),+ $(,)?) => {
+        $crate::Folder::embedded(
+            $plugin,
+            &[$(($file, include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/", $file)))),+],
+        )
+    };
+}

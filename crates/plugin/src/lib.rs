@@ -1,0 +1,30 @@
+//! What the author of a plugin sees: a folder with a manifest and WGSL, passes in Rust where one dispatch is not
+//! enough, and the registry that the program reads them from.
+//!
+//! * A **data plugin** is a folder with `plugin.ron` and WGSL files, found at run time. No compiler is needed.
+//! * A **crate plugin** is the same folder inside a crate, embedded with [`folder!`], plus [`RustPass`]es. Where the
+//!   folder itself is found at run time too, its files win over the embedded ones, so WGSL can be edited without a build.
+//!
+//! Both declare passes by the same descriptor and go through the same checks: [`Registry::new`] links every shader and
+//! holds it against what is declared.
+
+mod codes;
+mod dispatch;
+mod folder;
+mod manifest;
+mod pass;
+mod ports;
+mod registry;
+mod search;
+
+pub use codes::CODES;
+pub use folder::{Folder, Origin};
+pub use manifest::Version;
+pub use ports::Notice;
+pub use pass::{Plugin, RustPass, Shaders};
+pub use registry::{Registry, RegistryPass};
+pub use search::{SearchPath, find_folders, shader_modules};
+
+// What a pass in Rust needs, under one roof.
+pub use tyndall_gpu::{GpuError, Kernel, Program, Raster, RasterTargets, Recorder, Setup, wgpu};
+pub use tyndall_graph::{Resource, descriptor};

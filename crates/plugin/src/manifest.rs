@@ -1,0 +1,151 @@
+//! `plugin.ron`: what a plugin says of itself and of its passes, beyond what its WGSL says.
+
+use std::fmt;
+use std::sync::Arc;
+
+use tyndall_document::{Decoder, Diagnostic, Diagnostics, Node, Source, Span, parse};
+
+use crate::codes::{BAD_PLUGIN_NAME, BAD_VERSION};
+
+/// A semantic version.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Version {
+    /// Raised when graphs that use the plugin must be changed.
+    pub major: u32,
+    /// Raised when something is added.
+    pub minor: u32,
+    /// Raised when something is mended.
+    pub patch: u32,
+}
+
+impl Version {
+    fn parse(text: &str) -> Option<Self> {
+        let mut parts = text.split('.').map(|part| part.parse::<u32>().ok());
+        let version = Self { major: parts.next()??, minor: parts.next()??, patch: parts.next()?? };
+        parts.next().is_none().then_some(version)
+    }
+}
+
+impl fmt::Display for Version {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}.{}", self.major, self.minor, self.patch)
+    }
+}
+
+/// A manifest as it is written; ports and parameters are still nodes, because the shader decides how they are read.
+pub(crate) struct Manifest {
+    pub source: Arc<Source>,
+    pub name: String,
+    pub version: Version,
+    pub about: String,
+    pub passes: Vec<ManifestPass>,
+}
+
+/// A pass of a manifest.
+pub(crate) struct ManifestPass {
+    pub name: String,
+    pub name_span: Span,
+    pub about: String,
+    pub origin: String,
+    pub shader: String,
+    pub shader_span: Span,
+    pub over: Option<(String, Span)>,
+    pub ports: Vec<Entry>,
+    pub params: Vec<Entry>,
+}
+
+/// A named entry of a map.
+pub(crate) struct Entry {
+    pub name: String,
+    pub name_span: Span,
+    pub value: Node,
+}
+
+/// Reads a manifest; every mistake goes to `out`.
+pub(crate) fn read(source: &Arc<Source>, out: &mut Diagnostics) -> Option<Manifest> {
+    let root = parse(source, out)?;
+    let mut decoder = Decoder::new(source, out);
+    let fields = decoder.fields(&root, "a plugin", &["name", "version", "about", "passes"])?;
+    let name = fields.required(&mut decoder, "name").and_then(|node| name(&mut decoder, node));
+    let version = fields.required(&mut decoder, "version").and_then(|node| version(&mut decoder, node));
+    let about = fields.required(&mut decoder, "about").and_then(|node| decoder.text(node)).map(str::to_owned);
+    let mut passes = Vec::new();
+    for entry in entries(&mut decoder, fields.get("passes")) {
+        if let Some(pass) = pass(&mut decoder, entry) {
+            passes.push(pass);
+        }
+    }
+    Some(Manifest { source: source.clone(), name: name?, version: version?, about: about?, passes })
+}
+
+fn name(decoder: &mut Decoder<'_>, node: &Node) -> Option<String> {
+    let text = decoder.text(node)?;
+    if is_name(text) {
+        return Some(text.to_owned());
+    }
+    let place = decoder.place(node.span);
+    let problem = Diagnostic::error(BAD_PLUGIN_NAME, place, format!("{text:?} cannot be a name"));
+    decoder.report(problem.suggest("a name is lower-case letters, digits and `_`, and begins with a letter"));
+    None
+}
+
+fn is_name(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_lowercase())
+        && text.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
+}
+
+fn version(decoder: &mut Decoder<'_>, node: &Node) -> Option<Version> {
+    let text = decoder.text(node)?;
+    let version = Version::parse(text);
+    if version.is_none() {
+        let place = decoder.place(node.span);
+        let problem = Diagnostic::error(BAD_VERSION, place, format!("{text:?} is no version"));
+        decoder.report(problem.suggest("write MAJOR.MINOR.PATCH: \"0.1.0\""));
+    }
+    version
+}
+
+fn pass(decoder: &mut Decoder<'_>, entry: Entry) -> Option<ManifestPass> {
+    let known = ["about", "source", "shader", "dispatch", "ports", "params"];
+    let fields = decoder.fields(&entry.value, "a pass", &known)?;
+    let text = |decoder: &mut Decoder<'_>, name: &str| {
+        fields.get(name).and_then(|node| decoder.text(node)).unwrap_or_default().to_owned()
+    };
+    let valid = is_name(&entry.name);
+    if !valid {
+        let place = decoder.place(entry.name_span);
+        let problem = Diagnostic::error(BAD_PLUGIN_NAME, place, format!("{:?} cannot be a name", entry.name));
+        decoder.report(problem.suggest("a name is lower-case letters, digits and `_`, and begins with a letter"));
+    }
+    let about = fields.required(decoder, "about").and_then(|node| decoder.text(node)).map(str::to_owned);
+    let shader = fields.required(decoder, "shader");
+    let shader_span = shader.map_or(entry.value.span, |node| node.span);
+    let shader = shader.and_then(|node| decoder.text(node)).map(str::to_owned);
+    let over = fields.get("dispatch").and_then(|node| Some((decoder.text(node)?.to_owned(), node.span)));
+    let origin = text(decoder, "source");
+    let ports = entries(decoder, fields.get("ports"));
+    let params = entries(decoder, fields.get("params"));
+    let (about, shader) = (about?, shader?);
+    let pass = ManifestPass {
+        name: entry.name,
+        name_span: entry.name_span,
+        about,
+        origin,
+        shader,
+        shader_span,
+        over,
+        ports,
+        params,
+    };
+    valid.then_some(pass)
+}
+
+fn entries(decoder: &mut Decoder<'_>, node: Option<&Node>) -> Vec<Entry> {
+    let entries = node.and_then(|node| decoder.map(node)).unwrap_or_default();
+    let entry = |(name, name_span, value): (&str, Span, &Node)| Entry {
+        name: name.to_owned(),
+        name_span,
+        value: value.clone(),
+    };
+    entries.into_iter().map(entry).collect()
+}

@@ -1,0 +1,62 @@
+//! A plugin as its crate declares it.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use tyndall_gpu::{GpuError, Program, Setup};
+use tyndall_graph::descriptor::PassDescriptor;
+use tyndall_shader::Linked;
+
+use crate::folder::Folder;
+
+/// A plugin of a crate: a folder, and passes in Rust beside those that the manifest declares.
+pub struct Plugin {
+    /// Name, as in its manifest.
+    pub name: String,
+    pub(crate) folder: Folder,
+    pub(crate) passes: Vec<RustPass>,
+}
+
+impl Plugin {
+    /// A plugin without passes in Rust.
+    pub fn new(name: &str, folder: Folder) -> Self {
+        Self { name: name.to_owned(), folder, passes: Vec::new() }
+    }
+
+    /// Adds a pass in Rust.
+    #[must_use]
+    pub fn pass(mut self, pass: RustPass) -> Self {
+        self.passes.push(pass);
+        self
+    }
+}
+
+/// Makes a pass ready for a plan.
+pub type MakeProgram = dyn Fn(&mut Setup<'_>, &Shaders) -> Result<Box<dyn Program>, GpuError> + Send + Sync;
+
+/// A pass in Rust: for what needs several dispatches, a rasteriser, or files.
+pub struct RustPass {
+    /// What it declares; held against the shaders like that of every other pass.
+    pub descriptor: PassDescriptor,
+    /// Names of its shaders in the plugin's folder.
+    pub shaders: Vec<&'static str>,
+    /// Makes it ready for a plan.
+    pub make: Box<MakeProgram>,
+}
+
+/// The linked shaders of a pass, by file name.
+#[derive(Debug, Clone, Default)]
+pub struct Shaders(pub(crate) BTreeMap<String, Arc<Linked>>);
+
+impl Shaders {
+    /// The shader of this file name.
+    ///
+    /// # Errors
+    /// [`GpuError::Pass`] where the pass did not declare it.
+    pub fn get(&self, file: &str) -> Result<&Arc<Linked>, GpuError> {
+        self.0.get(file).ok_or_else(|| GpuError::Pass {
+            pass: file.to_owned(),
+            reason: "the pass declares no such shader".to_owned(),
+        })
+    }
+}

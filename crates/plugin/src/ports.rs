@@ -1,0 +1,287 @@
+//! What a manifest adds to reflection, joined into a descriptor.
+
+use std::sync::Arc;
+
+use tyndall_document::{Decoder, Diagnostic, Diagnostics, Fields, Node, Source, Value, near};
+use tyndall_graph::descriptor::{
+    Class, Disabled, Extent, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role, SizeRule,
+};
+use tyndall_shader::{Linked, Param, ParamKind, ReflectedPort, derive_port};
+
+use crate::codes::{BAD_PARAM, BAD_PORT, BAD_SIZE};
+use crate::manifest::{Entry, ManifestPass};
+
+/// A switch whose work is not built yet.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Notice {
+    /// The parameter.
+    pub param: String,
+    /// What is told where it is on.
+    pub text: String,
+}
+
+/// The descriptor of a pass of a manifest, from its shader and what the manifest adds.
+pub(crate) fn descriptor(
+    plugin: &str,
+    pass: &ManifestPass,
+    source: &Arc<Source>,
+    linked: &Linked,
+    scene_names: &[&str],
+    out: &mut Diagnostics,
+) -> PassDescriptor {
+    let mut decoder = Decoder::new(source, out);
+    let ports = pass.ports.iter().filter_map(|entry| port(&mut decoder, entry, linked)).collect();
+    let params = pass.params.iter().filter_map(|entry| param(&mut decoder, entry, linked)).collect();
+    let mut scene: Vec<String> = linked.resources.iter().map(|resource| resource.name.clone()).collect();
+    scene.retain(|name| scene_names.contains(&name.as_str()));
+    scene.sort();
+    PassDescriptor {
+        name: format!("{plugin}.{}", pass.name),
+        about: pass.about.clone(),
+        source: pass.origin.clone(),
+        ports,
+        params,
+        scene,
+        side_effect: false,
+        revision: 0,
+    }
+}
+
+fn port(decoder: &mut Decoder<'_>, entry: &Entry, linked: &Linked) -> Option<PortDescriptor> {
+    let known = ["about", "unit", "class", "size", "optional", "history", "disabled", "unordered"];
+    let fields = decoder.fields(&entry.value, "a port", &known)?;
+    let Some(resource) = linked.resource(&entry.name) else {
+        let names = linked.resources.iter().map(|resource| resource.name.as_str());
+        let message = format!("the shader has no variable `{}` for this port", entry.name);
+        let problem = Diagnostic::error(BAD_PORT, decoder.place(entry.name_span), message);
+        decoder.report(match near(&entry.name, names) {
+            Some(name) => problem.suggest(format!("did you mean `{name}`?")),
+            None => problem.suggest(format!("declare `var {}: …;` in the shader", entry.name)),
+        });
+        return None;
+    };
+    let reflected = match derive_port(resource) {
+        Ok(reflected) => reflected,
+        Err(problem) => {
+            decoder.report(*problem);
+            return None;
+        }
+    };
+    let text = |decoder: &mut Decoder<'_>, name: &str| {
+        fields.get(name).and_then(|node| decoder.text(node)).unwrap_or_default().to_owned()
+    };
+    let about = fields.required(decoder, "about").and_then(|node| decoder.text(node)).unwrap_or_default().to_owned();
+    let unit = text(decoder, "unit");
+    let class = fields.get("class").and_then(|node| class(decoder, node));
+    let size = fields.get("size").and_then(|node| size(decoder, node));
+    let optional = fields.get("optional").and_then(|node| decoder.floats4(node));
+    let history = fields.get("history").and_then(|node| decoder.floats4(node));
+    let disabled = fields.get("disabled").and_then(|node| disabled(decoder, node));
+    let unordered = fields.get("unordered").and_then(|node| decoder.bool(node)).unwrap_or(false);
+    let role = match (reflected.readable, reflected.writable) {
+        (true, true) => Role::InOut,
+        (true, false) => match (optional, history) {
+            (Some(value), None) => Role::Optional(value),
+            (None, Some(value)) => Role::History(value),
+            (None, None) => Role::Input,
+            (Some(_), Some(_)) => {
+                let place = decoder.place(entry.value.span);
+                decoder.report(Diagnostic::error(BAD_PORT, place, "a port is `optional` or `history`, not both"));
+                return None;
+            }
+        },
+        _ => Role::Output { disabled: disabled.unwrap_or(Disabled::Constant([0.0, 0.0, 0.0, 1.0])) },
+    };
+    Some(PortDescriptor { name: entry.name.clone(), about, unit, role, kind: kind(reflected, class), size, unordered })
+}
+
+fn kind(reflected: ReflectedPort, stated: Option<Class>) -> PortKind {
+    match (reflected.kind, stated) {
+        (PortKind::Texture { dimension, format, filtered, .. }, Some(class)) => {
+            PortKind::Texture { dimension, class, format, filtered }
+        }
+        (kind, _) => kind,
+    }
+}
+
+fn class(decoder: &mut Decoder<'_>, node: &Node) -> Option<Class> {
+    let known = ["Color", "Scalar", "Vector", "Display", "Data", "RasterDepth", "Any"];
+    let (name, _) = decoder.variant(node, "what a texture's channels mean", &known)?;
+    Some(match name {
+        "Color" => Class::Color,
+        "Scalar" => Class::Scalar,
+        "Vector" => Class::Vector,
+        "Display" => Class::Display,
+        "Data" => Class::Data,
+        "RasterDepth" => Class::RasterDepth,
+        _ => Class::Any,
+    })
+}
+
+fn disabled(decoder: &mut Decoder<'_>, node: &Node) -> Option<Disabled> {
+    let (name, content) = decoder.variant(node, "what flows where the pass is off", &["Input", "Constant"])?;
+    match (name, content.map(arguments).as_deref()) {
+        ("Input", Some([port])) => decoder.text(port).map(|port| Disabled::Input(port.to_owned())),
+        ("Constant", Some([_, _, _, _])) => content.and_then(|value| decoder.floats4(value)).map(Disabled::Constant),
+        _ => {
+            decoder.wrong_type(node, "`Input(\"port\")` or `Constant(r, g, b, a)`");
+            None
+        }
+    }
+}
+
+fn size(decoder: &mut Decoder<'_>, node: &Node) -> Option<SizeRule> {
+    let known = ["Same", "Scaled", "Frame", "Fixed", "Params", "FramePixels"];
+    let (name, content) = decoder.variant(node, "a size", &known)?;
+    let content = content.map(arguments).unwrap_or_default();
+    let rule = match (name, content.as_slice()) {
+        ("Same", [port]) => Some(SizeRule::same(decoder.text(port)?)),
+        ("Scaled", [port, factor]) => {
+            let port = decoder.text(port)?.to_owned();
+            factor_of(decoder, factor).map(|factor| SizeRule::scaled(&port, factor))
+        }
+        ("Frame", []) => Some(SizeRule::frame(1.0)),
+        ("Frame", [factor]) => factor_of(decoder, factor).map(SizeRule::frame),
+        ("FramePixels", [factor]) => factor_of(decoder, factor).map(|factor| SizeRule {
+            width: Extent::FramePixels(factor),
+            height: Extent::Fixed(1),
+            depth: Extent::Fixed(1),
+        }),
+        ("Fixed" | "Params", [_] | [_, _] | [_, _, _]) => {
+            let extents: Option<Vec<Extent>> = content.iter().map(|node| extent(decoder, node)).collect();
+            extents.map(|extents| {
+                let at = |axis: usize| extents.get(axis).cloned().unwrap_or(Extent::Fixed(1));
+                SizeRule { width: at(0), height: at(1), depth: at(2) }
+            })
+        }
+        _ => None,
+    };
+    if rule.is_none() {
+        let place = decoder.place(node.span);
+        let problem = Diagnostic::error(BAD_SIZE, place, format!("`{name}` is not given what it needs to be a size"));
+        decoder.report(problem.suggest(
+            "sizes are Same(\"port\"), Scaled(\"port\", factor), Frame(factor), Fixed(w, h, d), \
+             Params(\"width\", \"height\"), FramePixels(factor)",
+        ));
+    }
+    rule
+}
+
+/// The extent of one axis: a number of texels, or the name of an integer parameter.
+fn extent(decoder: &mut Decoder<'_>, node: &Node) -> Option<Extent> {
+    match &node.value {
+        Value::Text(name) => Some(Extent::Param(name.clone())),
+        _ => decoder.integer(node).and_then(|texels| u32::try_from(texels).ok()).filter(|t| *t > 0).map(Extent::Fixed),
+    }
+}
+
+fn factor_of(decoder: &mut Decoder<'_>, node: &Node) -> Option<f64> {
+    decoder.float(node).filter(|factor| *factor > 0.0)
+}
+
+/// What stands in the parentheses of a variant: one value, or several.
+fn arguments(content: &Node) -> Vec<&Node> {
+    match &content.value {
+        Value::Tuple(items) => items.iter().collect(),
+        Value::Unit => Vec::new(),
+        _ => vec![content],
+    }
+}
+
+fn param(decoder: &mut Decoder<'_>, entry: &Entry, linked: &Linked) -> Option<ParamDescriptor> {
+    let fields = decoder.fields(&entry.value, "a parameter", &["about", "unit", "default", "range", "choices", "unbuilt"])?;
+    let reflected = linked.param(&entry.name);
+    if fields.get("unbuilt").is_some() && reflected.is_none() {
+        return unbuilt(decoder, entry, &fields);
+    }
+    let Some(reflected) = reflected else {
+        let message = format!("the shader has no parameter `{}`", entry.name);
+        let problem = Diagnostic::error(BAD_PARAM, decoder.place(entry.name_span), message);
+        decoder.report(match near(&entry.name, linked.params.iter().map(|param| param.name.as_str())) {
+            Some(name) => problem.suggest(format!("did you mean `{name}`?")),
+            None => problem.suggest("parameters are the members of `Params`, and `override`s"),
+        });
+        return None;
+    };
+    let about = fields.required(decoder, "about").and_then(|node| decoder.text(node)).unwrap_or_default().to_owned();
+    let unit = fields.get("unit").and_then(|node| decoder.text(node)).unwrap_or_default().to_owned();
+    let choices = fields.get("choices").and_then(|node| words(decoder, node)).unwrap_or_default();
+    let range = fields.get("range").and_then(|node| decoder.floats::<2>(node)).map(|[low, high]| (low, high));
+    let default = fields.required(decoder, "default").and_then(|node| default(decoder, node, reflected, &choices));
+    let fixed = reflected.is_override();
+    Some(ParamDescriptor { name: entry.name.clone(), about, unit, default: default?, range, choices, fixed })
+}
+
+/// A switch that the shader does not have yet.
+fn unbuilt(decoder: &mut Decoder<'_>, entry: &Entry, fields: &Fields<'_>) -> Option<ParamDescriptor> {
+    let about = fields.required(decoder, "about").and_then(|node| decoder.text(node)).unwrap_or_default().to_owned();
+    let default = fields.required(decoder, "default").and_then(|node| decoder.bool(node)).map(ParamValue::Bool);
+    fields.get("unbuilt").and_then(|node| decoder.text(node));
+    let (name, unit) = (entry.name.clone(), String::new());
+    Some(ParamDescriptor { name, about, unit, default: default?, range: None, choices: Vec::new(), fixed: false })
+}
+
+/// What of the pass is declared and not built: parameters with an `unbuilt` text.
+pub(crate) fn notices(pass: &ManifestPass) -> Vec<Notice> {
+    let notice = |entry: &Entry| {
+        let Value::Struct(fields) = &entry.value.value else { return None };
+        match &fields.iter().find(|field| field.name == "unbuilt")?.value.value {
+            Value::Text(text) => Some(Notice { param: entry.name.clone(), text: text.clone() }),
+            _ => None,
+        }
+    };
+    pass.params.iter().filter_map(notice).collect()
+}
+
+fn words(decoder: &mut Decoder<'_>, node: &Node) -> Option<Vec<String>> {
+    let items = decoder.list(node)?;
+    items.iter().map(|item| decoder.text(item).map(str::to_owned)).collect()
+}
+
+/// The default, read as the type that the shader says; a `u32` is a switch where the default is one, and a choice
+/// where there are words to choose from.
+fn default(decoder: &mut Decoder<'_>, node: &Node, param: &Param, choices: &[String]) -> Option<ParamValue> {
+    if !choices.is_empty() && param.kind == ParamKind::Uint {
+        let word = decoder.text(node)?;
+        if !choices.iter().any(|choice| choice == word) {
+            let message = format!("{word:?} is none of the choices");
+            let place = decoder.place(node.span);
+            decoder.report(Diagnostic::error(BAD_PARAM, place, message).suggest(choices.join(", ")));
+        }
+        return Some(ParamValue::Choice(word.to_owned()));
+    }
+    match (param.kind, &node.value) {
+        (ParamKind::Bool, _) | (ParamKind::Uint, Value::Bool(_)) => decoder.bool(node).map(ParamValue::Bool),
+        (ParamKind::Int | ParamKind::Uint, _) => decoder.integer(node).map(ParamValue::Integer),
+        (ParamKind::Float, _) => decoder.float(node).map(ParamValue::Float),
+        (ParamKind::Vector(2), _) => decoder.floats::<2>(node).map(|values| ParamValue::Vector(values.to_vec())),
+        (ParamKind::Vector(3), _) => decoder.floats::<3>(node).map(|values| ParamValue::Vector(values.to_vec())),
+        (ParamKind::Vector(_), _) => decoder.floats::<4>(node).map(|values| ParamValue::Vector(values.to_vec())),
+    }
+}
+
+/// Four numbers that may be infinite: what a texel reads as.
+trait Floats4 {
+    fn floats4(&mut self, node: &Node) -> Option<[f32; 4]>;
+}
+
+impl Floats4 for Decoder<'_> {
+    fn floats4(&mut self, node: &Node) -> Option<[f32; 4]> {
+        let numbers: Option<Vec<f32>> = match &node.value {
+            Value::Tuple(items) => items.iter().map(|item| number(&item.value)).collect(),
+            _ => None,
+        };
+        let numbers = numbers.and_then(|numbers| <[f32; 4]>::try_from(numbers).ok());
+        if numbers.is_none() {
+            self.wrong_type(node, "a tuple of 4 numbers");
+        }
+        numbers
+    }
+}
+
+fn number(value: &Value) -> Option<f32> {
+    match value {
+        Value::Number(number) if !number.value.is_nan() => Some(number.value as f32),
+        _ => None,
+    }
+}

@@ -1,0 +1,262 @@
+//! Every pass that a graph can use, linked and checked, and how to make each ready.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::sync::Arc;
+
+use tyndall_document::{Diagnostic, Diagnostics, Place, near};
+use tyndall_gpu::{GpuError, Program, Programs, Setup};
+use tyndall_graph::Catalogue;
+use tyndall_graph::descriptor::PassDescriptor;
+use tyndall_shader::{Library, check_all, link};
+
+use crate::codes::{BAD_DESCRIPTOR, DUPLICATE_PLUGIN, MISSING_SHADER};
+use crate::dispatch;
+use crate::folder::{Folder, MANIFEST, Origin};
+use crate::manifest::{self, Manifest, ManifestPass, Version};
+use crate::pass::{MakeProgram, Plugin, RustPass, Shaders};
+use crate::ports::{self, Notice};
+
+/// Every pass of every plugin.
+#[derive(Default)]
+pub struct Registry {
+    catalogue: Catalogue,
+    passes: BTreeMap<String, RegistryPass>,
+}
+
+/// A pass that is ready to be used in graphs.
+pub struct RegistryPass {
+    /// What it declares.
+    pub descriptor: Arc<PassDescriptor>,
+    /// Version of its plugin.
+    pub version: Version,
+    /// What its plugin is about.
+    pub plugin_about: String,
+    /// Where its plugin's files come from.
+    pub origin: Origin,
+    /// Switches whose work is not built yet.
+    pub notices: Vec<Notice>,
+    /// Of its linked shaders.
+    pub fingerprint: u64,
+    shaders: Shaders,
+    make: Make,
+}
+
+enum Make {
+    Dispatch { file: String, over: String },
+    Rust(Box<MakeProgram>),
+}
+
+impl Registry {
+    /// Links and checks every pass: those of crates, and those of folders found at run time. A folder of the same name
+    /// as a crate's plugin replaces that plugin's embedded files.
+    ///
+    /// # Errors
+    /// Every mistake of every manifest and shader.
+    pub fn new(
+        crates: Vec<Plugin>,
+        folders: Vec<Folder>,
+        shared: &Library,
+        scene_names: &[&str],
+    ) -> Result<Self, Diagnostics> {
+        let mut builder = Builder { registry: Self::default(), shared, scene_names, out: Diagnostics::default() };
+        let mut found = builder.manifests(folders);
+        for plugin in crates {
+            let replaced = found.iter().position(|(manifest, _)| manifest.name == plugin.name);
+            let entry = match replaced {
+                Some(index) => Some(found.remove(index)),
+                None => builder.manifests(vec![plugin.folder]).pop(),
+            };
+            if let Some((manifest, folder)) = entry {
+                builder.plugin(&manifest, &folder, plugin.passes);
+            }
+        }
+        for (manifest, folder) in found {
+            builder.plugin(&manifest, &folder, Vec::new());
+        }
+        builder.out.sort();
+        if builder.out.has_errors() { Err(builder.out) } else { Ok(builder.registry) }
+    }
+
+    /// The descriptors, for validation.
+    pub fn catalogue(&self) -> &Catalogue {
+        &self.catalogue
+    }
+
+    /// Every pass, sorted by name.
+    pub fn passes(&self) -> impl Iterator<Item = &RegistryPass> {
+        self.passes.values()
+    }
+
+    /// The pass of this name.
+    pub fn pass(&self, name: &str) -> Option<&RegistryPass> {
+        self.passes.get(name)
+    }
+
+    /// The name that was probably meant.
+    pub fn near(&self, name: &str) -> Option<&str> {
+        near(name, self.passes.keys().map(String::as_str))
+    }
+}
+
+impl Programs for Registry {
+    fn program(&self, setup: &mut Setup<'_>) -> Result<Box<dyn Program>, GpuError> {
+        let name = &setup.pass.descriptor().name;
+        let pass = self.passes.get(name).ok_or_else(|| setup.pass.refuse(format!("`{name}` is not registered")))?;
+        match &pass.make {
+            Make::Dispatch { file, over } => dispatch::make(setup, &pass.shaders, file, over),
+            Make::Rust(make) => make(setup, &pass.shaders),
+        }
+    }
+
+    fn fingerprint(&self, pass: &str) -> u64 {
+        self.passes.get(pass).map_or(0, |pass| pass.fingerprint)
+    }
+}
+
+/// A pass before it is held against its shaders.
+struct Candidate {
+    descriptor: PassDescriptor,
+    shaders: Shaders,
+    make: Make,
+    notices: Vec<Notice>,
+}
+
+/// Collects passes and mistakes.
+struct Builder<'a> {
+    registry: Registry,
+    shared: &'a Library,
+    scene_names: &'a [&'a str],
+    out: Diagnostics,
+}
+
+impl Builder<'_> {
+    /// Reads the manifests of folders; of two plugins of one name the second is refused.
+    fn manifests(&mut self, folders: Vec<Folder>) -> Vec<(Manifest, Folder)> {
+        let mut found: Vec<(Manifest, Folder)> = Vec::new();
+        for folder in folders {
+            let Some(source) = folder.file(MANIFEST).cloned() else { continue };
+            let Some(manifest) = manifest::read(&source, &mut self.out) else { continue };
+            if let Some((first, _)) = found.iter().find(|(other, _)| other.name == manifest.name) {
+                let message = format!("there are two plugins named `{}`", manifest.name);
+                let problem = Diagnostic::error(DUPLICATE_PLUGIN, Place::File(source.name().to_owned()), message);
+                self.out.push(problem.relate(Place::File(first.source.name().to_owned()), "the first one"));
+                continue;
+            }
+            found.push((manifest, folder));
+        }
+        found
+    }
+
+    fn plugin(&mut self, manifest: &Manifest, folder: &Folder, rust: Vec<RustPass>) {
+        let library = folder.library(self.shared);
+        for pass in &manifest.passes {
+            self.data_pass(manifest, folder, &library, pass);
+        }
+        for pass in rust {
+            self.rust_pass(manifest, folder, &library, pass);
+        }
+    }
+
+    fn data_pass(&mut self, manifest: &Manifest, folder: &Folder, library: &Library, pass: &ManifestPass) {
+        let place = manifest.source.place(pass.shader_span);
+        let Some(shaders) = self.link(folder, library, &[pass.shader.as_str()], &place) else { return };
+        let Some(linked) = shaders.0.get(&pass.shader) else { return };
+        let before = self.out.len();
+        let descriptor =
+            ports::descriptor(&manifest.name, pass, &manifest.source, linked, self.scene_names, &mut self.out);
+        if self.out.len() > before {
+            return;
+        }
+        let over = match &pass.over {
+            Some((port, span)) if descriptor.port(port).is_none() => {
+                let message = format!("`dispatch` names `{port}`, which is no port of this pass");
+                self.out.push(Diagnostic::error(crate::codes::BAD_PORT, manifest.source.place(*span), message));
+                return;
+            }
+            Some((port, _)) => Some(port.clone()),
+            None => dispatch::default_over(&descriptor),
+        };
+        let Some(over) = over else {
+            let place = manifest.source.place(pass.name_span);
+            self.out.push(Diagnostic::error(crate::codes::BAD_PORT, place, "the pass has no output, so nothing to run over"));
+            return;
+        };
+        let make = Make::Dispatch { file: pass.shader.clone(), over };
+        let place = manifest.source.place(pass.name_span);
+        self.insert(manifest, folder, Candidate { descriptor, shaders, make, notices: ports::notices(pass) }, &place);
+    }
+
+    fn rust_pass(&mut self, manifest: &Manifest, folder: &Folder, library: &Library, pass: RustPass) {
+        let place = Place::File(manifest.source.name().to_owned());
+        let Some(shaders) = self.link(folder, library, &pass.shaders, &place) else { return };
+        let make = Make::Rust(pass.make);
+        let candidate = Candidate { descriptor: pass.descriptor, shaders, make, notices: Vec::new() };
+        self.insert(manifest, folder, candidate, &place);
+    }
+
+    fn link(&mut self, folder: &Folder, library: &Library, files: &[&str], place: &Place) -> Option<Shaders> {
+        let mut shaders = Shaders::default();
+        for file in files {
+            let Some(source) = folder.file(file) else {
+                let message = format!("the plugin's folder holds no `{file}`");
+                let problem = Diagnostic::error(MISSING_SHADER, place.clone(), message);
+                let near = near(file, folder.files.keys().map(String::as_str));
+                self.out.push(match near {
+                    Some(name) => problem.suggest(format!("did you mean `{name}`?")),
+                    None => problem,
+                });
+                return None;
+            };
+            match link(source, library) {
+                Ok(linked) => shaders.0.insert((*file).to_owned(), Arc::new(linked)),
+                Err(problems) => {
+                    self.out.extend(problems);
+                    return None;
+                }
+            };
+        }
+        Some(shaders)
+    }
+
+    /// Holds a pass against its shaders, and registers it where they agree.
+    fn insert(&mut self, manifest: &Manifest, folder: &Folder, candidate: Candidate, place: &Place) {
+        let Candidate { descriptor, shaders, make, notices } = candidate;
+        let linked: Vec<_> = shaders.0.values().map(AsRef::as_ref).collect();
+        if !linked.is_empty() {
+            let mut built = descriptor.clone();
+            built.params.retain(|param| notices.iter().all(|notice| notice.param != param.name));
+            let problems = check_all(&linked, &built, self.scene_names, &[]);
+            if !problems.is_empty() {
+                self.out.extend(problems);
+                return;
+            }
+        }
+        let descriptor = Arc::new(descriptor);
+        if let Err(errors) = self.registry.catalogue.insert(descriptor.clone()) {
+            for error in errors {
+                self.out.push(Diagnostic::error(BAD_DESCRIPTOR, place.clone(), error.to_string()));
+            }
+            return;
+        }
+        let fingerprint = fingerprint(&shaders);
+        let pass = RegistryPass {
+            descriptor: descriptor.clone(),
+            version: manifest.version,
+            plugin_about: manifest.about.clone(),
+            origin: folder.origin.clone(),
+            notices,
+            fingerprint,
+            shaders,
+            make,
+        };
+        self.registry.passes.insert(descriptor.name.clone(), pass);
+    }
+}
+
+fn fingerprint(shaders: &Shaders) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    let all: BTreeSet<u64> = shaders.0.values().map(|linked| linked.fingerprint).collect();
+    all.hash(&mut hasher);
+    hasher.finish()
+}
