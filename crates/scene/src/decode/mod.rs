@@ -1,0 +1,61 @@
+//! From the spanned tree of a scene file to checked values; every mistake is reported, none stops the others.
+
+mod camera;
+mod lights;
+mod medium;
+mod objects;
+mod values;
+
+use glam::DVec3;
+use tyndall_document::{Decoder, Node};
+
+pub(crate) use self::camera::CameraDraft;
+pub(crate) use self::objects::{MeshDraft, ObjectDraft};
+use self::values::{Range, vector};
+use crate::model::{Light, Medium};
+
+/// What a scene file says, before the files that it names are read.
+#[derive(Debug)]
+pub(crate) struct Draft {
+    pub camera: CameraDraft,
+    pub medium: Option<Medium>,
+    pub background: DVec3,
+    /// `None` where the field is left out: then the lights of glTF files count.
+    pub lights: Option<Vec<Light>>,
+    pub objects: Vec<ObjectDraft>,
+}
+
+/// Decodes a scene file's tree. The result is usable only where nothing was reported as an error.
+pub(crate) fn scene(decoder: &mut Decoder, root: &Node) -> Option<Draft> {
+    let fields = decoder.fields(root, "a scene", &["camera", "medium", "background", "lights", "objects"])?;
+    let none = CameraDraft::Model { vertical_fov: None };
+    let camera = given(fields.get("camera"), none, |n| camera::camera(decoder, n));
+    let medium = given(fields.get("medium"), None, |n| medium::medium(decoder, n).map(Some));
+    let background = given(fields.get("background"), DVec3::ZERO, |n| {
+        vector(decoder, n, "background", Range::NotNegative)
+    });
+    let lights = given(fields.get("lights"), None, |n| lights::lights(decoder, n).map(Some));
+    let objects = given(fields.get("objects"), Vec::new(), |n| objects::objects(decoder, n));
+    Some(Draft {
+        camera: camera?,
+        medium: medium?,
+        background: background?,
+        lights: lights?,
+        objects: objects?,
+    })
+}
+
+/// The default where a field is left out, else what is read of it.
+fn given<T>(node: Option<&Node>, default: T, read: impl FnOnce(&Node) -> Option<T>) -> Option<T> {
+    match node {
+        Some(node) => read(node),
+        None => Some(default),
+    }
+}
+
+/// The values of fields that must all be there, in that order.
+fn parts_of<'n>(decoder: &mut Decoder, node: &'n Node, what: &str, names: &[&str]) -> Option<Vec<&'n Node>> {
+    let fields = decoder.fields(node, what, names)?;
+    let parts: Vec<Option<&Node>> = names.iter().map(|name| fields.required(decoder, name)).collect();
+    parts.into_iter().collect()
+}

@@ -1,0 +1,175 @@
+//! Numbers, vectors and keys with the ranges that they have.
+
+use glam::DVec3;
+use tyndall_document::{Decoder, Diagnostic, Node, Value};
+
+use crate::animate::{Animated, least_length};
+use crate::codes::{CONSTANT_ONLY, EMPTY_KEYS, OUT_OF_RANGE, UNSORTED_KEYS, ZERO_DIRECTION};
+
+/// A way between two directions that comes this near to 0, relative to their length, passes through it.
+const NO_LENGTH: f64 = 1e-9;
+
+/// Which numbers are allowed.
+#[derive(Clone, Copy)]
+pub(super) enum Range {
+    /// All that fit single precision.
+    Any,
+    /// 0 or more.
+    NotNegative,
+    /// Above 0.
+    Positive,
+    /// 0 to 1, both included.
+    Unit,
+    /// Between the two, both excluded.
+    Between(f64, f64),
+    /// Above 0, up to a value that is included.
+    UpTo(f64),
+}
+
+impl Range {
+    fn holds(self, value: f64) -> bool {
+        match self {
+            Range::Any => true,
+            Range::NotNegative => value >= 0.0,
+            // What becomes 0 in single precision is 0 for a shader.
+            Range::Positive => value as f32 > 0.0,
+            Range::Unit => (0.0..=1.0).contains(&value),
+            Range::Between(low, high) => value > low && value < high,
+            Range::UpTo(high) => value > 0.0 && value <= high,
+        }
+    }
+
+    fn text(self) -> String {
+        match self {
+            Range::Any => "fit single precision".to_owned(),
+            Range::NotNegative => "be 0 or more".to_owned(),
+            Range::Positive => "be above 0".to_owned(),
+            Range::Unit => "lie in 0..1".to_owned(),
+            Range::Between(low, high) => format!("lie between {low} and {high}, both excluded"),
+            Range::UpTo(high) => format!("be above 0 and at most {high}"),
+        }
+    }
+}
+
+/// A number of a range; `name` is the field's name for messages.
+pub(super) fn number(decoder: &mut Decoder, node: &Node, name: &str, range: Range) -> Option<f64> {
+    let value = decoder.float(node)?;
+    let fits = (value as f32).is_finite();
+    if fits && range.holds(value) {
+        return Some(value);
+    }
+    let must = if fits { range } else { Range::Any };
+    // Digits beyond 16 would be noise.
+    let extreme = value != 0.0 && !(1e-6..1e16).contains(&value.abs());
+    let shown = if extreme { format!("{value:e}") } else { value.to_string() };
+    let message = format!("`{name}` is {shown}; it must {}", must.text());
+    decoder.report(Diagnostic::error(OUT_OF_RANGE, decoder.place(node.span), message));
+    None
+}
+
+/// Numbers of a range in a tuple; each mistake is reported at its number.
+pub(super) fn numbers<const N: usize>(
+    decoder: &mut Decoder,
+    node: &Node,
+    name: &str,
+    range: Range,
+) -> Option<[f64; N]> {
+    if let Value::Variant { name: variant, .. } = &node.value
+        && variant == "Keys"
+    {
+        let message = format!("`{name}` is the same at every time and takes no `Keys`");
+        let hint = "translation, position, look_at, direction and intensity may have keys";
+        decoder.report(Diagnostic::error(CONSTANT_ONLY, decoder.place(node.span), message).suggest(hint));
+        return None;
+    }
+    let values = decoder.floats::<N>(node)?;
+    let Value::Tuple(items) = &node.value else { return None };
+    let checked: Vec<Option<f64>> = items.iter().map(|item| number(decoder, item, name, range)).collect();
+    checked.iter().all(Option::is_some).then_some(values)
+}
+
+/// Three numbers of a range.
+pub(super) fn vector(decoder: &mut Decoder, node: &Node, name: &str, range: Range) -> Option<DVec3> {
+    numbers::<3>(decoder, node, name, range).map(DVec3::from_array)
+}
+
+/// Three numbers that are not all 0.
+pub(super) fn direction(decoder: &mut Decoder, node: &Node, name: &str) -> Option<DVec3> {
+    let value = vector(decoder, node, name, Range::Any)?;
+    // Single precision: a direction that becomes 0 there has no length for a shader, but is normalised before.
+    if value.length() > 0.0 && value.length().is_finite() {
+        return Some(value);
+    }
+    let message = format!("`{name}` has length 0");
+    decoder.report(Diagnostic::error(ZERO_DIRECTION, decoder.place(node.span), message));
+    None
+}
+
+type Read = fn(&mut Decoder, &Node, &str) -> Option<DVec3>;
+
+/// Any vector, or keys of such.
+pub(super) fn animated(decoder: &mut Decoder, node: &Node, name: &str) -> Option<Animated> {
+    keys(decoder, node, name, |d, n, name| vector(d, n, name, Range::Any))
+}
+
+/// A vector without negative components, or keys of such.
+pub(super) fn animated_power(decoder: &mut Decoder, node: &Node, name: &str) -> Option<Animated> {
+    keys(decoder, node, name, |d, n, name| vector(d, n, name, Range::NotNegative))
+}
+
+/// A vector that has a length at all times, or keys of such.
+pub(super) fn animated_direction(decoder: &mut Decoder, node: &Node, name: &str) -> Option<Animated> {
+    let animated = keys(decoder, node, name, direction)?;
+    if let Animated::Keys(keys) = &animated
+        && let Some(pair) = keys.windows(2).find(|k| least_length(k[0].1, k[1].1) < NO_LENGTH)
+    {
+        let message = format!("`{name}` passes through length 0 between {} s and {} s", pair[0].0, pair[1].0);
+        let diagnostic = Diagnostic::error(ZERO_DIRECTION, decoder.place(node.span), message);
+        decoder.report(diagnostic.suggest("give a key between the two that leads around the origin"));
+        return None;
+    }
+    Some(animated)
+}
+
+/// A value, or `Keys([(seconds, value), …])`.
+fn keys(decoder: &mut Decoder, node: &Node, name: &str, read: Read) -> Option<Animated> {
+    let content = match &node.value {
+        Value::Variant { name: variant, content, .. } if variant == "Keys" => content.as_deref(),
+        _ => return read(decoder, node, name).map(Animated::Constant),
+    };
+    let list = match content.map(|c| &c.value) {
+        Some(Value::Tuple(items)) if items.len() == 1 => &items[0],
+        _ => {
+            decoder.wrong_type(content.unwrap_or(node), "`Keys([(seconds, value), …])`");
+            return None;
+        }
+    };
+    let items = decoder.list(list)?;
+    if items.is_empty() {
+        let message = format!("`{name}` has no keys");
+        decoder.report(Diagnostic::error(EMPTY_KEYS, decoder.place(list.span), message));
+        return None;
+    }
+    let keys: Vec<Option<(f64, DVec3)>> = items.iter().map(|item| key(decoder, item, name, read)).collect();
+    let keys: Vec<(f64, DVec3)> = keys.into_iter().collect::<Option<_>>()?;
+    if let Some(at) = keys.windows(2).position(|pair| pair[1].0 <= pair[0].0) {
+        let message = format!("the key at {} s follows the key at {} s; times must ascend", keys[at + 1].0, keys[at].0);
+        decoder.report(Diagnostic::error(UNSORTED_KEYS, decoder.place(items[at + 1].span), message));
+        return None;
+    }
+    Some(Animated::Keys(keys))
+}
+
+fn key(decoder: &mut Decoder, node: &Node, name: &str, read: Read) -> Option<(f64, DVec3)> {
+    match &node.value {
+        Value::Tuple(pair) if pair.len() == 2 => {
+            let time = decoder.float(&pair[0]);
+            let value = read(decoder, &pair[1], name);
+            time.zip(value)
+        }
+        _ => {
+            decoder.wrong_type(node, "a key `(seconds, value)`");
+            None
+        }
+    }
+}

@@ -1,0 +1,291 @@
+//! A scene as the bytes of GPU buffers, one per name of scene data (`shaders/scene.wgsl`).
+
+use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+
+use crate::adjacency::Adjacency;
+use crate::frame::{Frame, FrameLight, View};
+use crate::gltf::encoded_wrap;
+use crate::layout;
+use crate::model::{Instance, LightKind, Medium};
+use crate::scene::Scene;
+
+/// The names of scene data, in the order of [`Encoded::items`].
+pub const SCENE_DATA: &[&str] = &[
+    "camera", "medium", "background", "lights", "vertices", "triangles", "objects", "materials", "textures", "texels",
+];
+
+const CAMERA: usize = 0;
+const LIGHTS: usize = 3;
+const VERTICES: usize = 4;
+const TRIANGLES: usize = 5;
+
+/// The bytes of each name of scene data.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Encoded {
+    /// One for each name of [`SCENE_DATA`], in that order.
+    pub items: Vec<(&'static str, Vec<u8>)>,
+    time: f64,
+    aspect: f64,
+}
+
+impl Encoded {
+    pub(crate) fn of(scene: &Scene, time: f64, aspect: f64) -> Encoded {
+        let frame = scene.at(time);
+        let bytes = [
+            bytes_of(&camera(&frame.camera, aspect)).to_vec(),
+            bytes_of(&medium(scene.medium.as_ref())).to_vec(),
+            bytes_of(&layout::Background { radiance: floats(scene.background), pad: 0.0 }).to_vec(),
+            list(frame.lights.iter().map(light)),
+            vertices(scene, &frame),
+            triangles(scene, &frame),
+            list(scene.instances.iter().map(object)),
+            list(scene.materials.iter().map(material)),
+            textures(scene),
+            texels(scene),
+        ];
+        let items = SCENE_DATA.iter().copied().zip(bytes).collect();
+        Encoded { items, time, aspect }
+    }
+
+    /// The bytes of a name; empty for an unknown one.
+    pub fn bytes(&self, name: &str) -> &[u8] {
+        self.items.iter().find(|item| item.0 == name).map_or(&[], |item| &item.1)
+    }
+
+    /// Brings the bytes to another time and aspect of the same scene and gives the names whose bytes may have changed.
+    ///
+    /// Only what moves is worked out again, in place: the buffers keep their sizes.
+    pub fn update(&mut self, scene: &Scene, time: f64, aspect: f64) -> Vec<&'static str> {
+        let mut changed = if time == self.time { Vec::new() } else { scene.animated() };
+        if aspect != self.aspect && !changed.contains(&"camera") {
+            changed.insert(0, "camera");
+        }
+        (self.time, self.aspect) = (time, aspect);
+        if changed.is_empty() {
+            return changed;
+        }
+        let frame = scene.at(time);
+        for name in &changed {
+            match *name {
+                "camera" => self.write(CAMERA, 0, bytes_of(&camera(&frame.camera, aspect))),
+                "lights" => {
+                    let lights: Vec<layout::Light> = frame.lights.iter().map(light).collect();
+                    self.write(LIGHTS, size_of::<layout::Header>(), cast_slice(&lights));
+                }
+                "vertices" => self.move_vertices(scene, &frame),
+                _ => self.turn_triangles(scene, &frame),
+            }
+        }
+        changed
+    }
+
+    fn write(&mut self, item: usize, offset: usize, bytes: &[u8]) {
+        self.items[item].1[offset..offset + bytes.len()].copy_from_slice(bytes);
+    }
+
+    fn move_vertices(&mut self, scene: &Scene, frame: &Frame) {
+        let mut offset = size_of::<layout::Header>();
+        for (instance, transform) in scene.instances.iter().zip(&frame.transforms) {
+            let size = instance.mesh.positions.len() * size_of::<layout::Vertex>();
+            if scene.instance_moves(instance) {
+                let bytes = &mut self.items[VERTICES].1[offset..offset + size];
+                let slots = bytes.chunks_exact_mut(size_of::<layout::Vertex>());
+                for (slot, vertex) in slots.zip(world_vertices(instance, transform)) {
+                    slot.copy_from_slice(bytes_of(&vertex));
+                }
+            }
+            offset += size;
+        }
+    }
+
+    fn turn_triangles(&mut self, scene: &Scene, frame: &Frame) {
+        let bytes = triangles(scene, frame);
+        self.write(TRIANGLES, 0, &bytes);
+    }
+}
+
+fn floats(v: DVec3) -> [f32; 3] {
+    v.as_vec3().to_array()
+}
+
+fn camera(view: &View, aspect: f64) -> layout::Camera {
+    let tangent = (view.vertical_fov / 2.0).tan();
+    layout::Camera {
+        position: floats(view.position),
+        right: floats(view.right * tangent * aspect),
+        up: floats(view.up * tangent),
+        forward: floats(view.forward),
+        ..Default::default()
+    }
+}
+
+fn medium(medium: Option<&Medium>) -> layout::Medium {
+    let none = Medium { extinction: DVec3::ZERO, albedo: DVec3::ONE, phase: Default::default() };
+    let medium = medium.unwrap_or(&none);
+    let phase = medium.phase.encode();
+    layout::Medium {
+        extinction: floats(medium.extinction),
+        phase: phase.kind,
+        scattering: floats(medium.scattering()),
+        g1: below_one(phase.g1),
+        g2: below_one(phase.g2),
+        weight: phase.weight as f32,
+        rho1: phase.rho1 as f32,
+        rho2: phase.rho2 as f32,
+    }
+}
+
+/// Rounds toward 0 what would round to ±1, where phase functions have no value.
+fn below_one(g: f64) -> f32 {
+    let rounded = g as f32;
+    if rounded.abs() < 1.0 { rounded } else { rounded.next_down_toward_zero() }
+}
+
+trait TowardZero {
+    fn next_down_toward_zero(self) -> Self;
+}
+
+impl TowardZero for f32 {
+    fn next_down_toward_zero(self) -> f32 {
+        if self > 0.0 { self.next_down() } else { self.next_up() }
+    }
+}
+
+fn light(light: &FrameLight) -> layout::Light {
+    let (kind, exponent, cutoff) = match light.kind {
+        LightKind::Point => (0, 0.0, std::f64::consts::PI),
+        LightKind::Spot { exponent, cutoff } => (1, exponent, cutoff),
+        LightKind::Directional => (2, 0.0, std::f64::consts::PI),
+    };
+    // cos(π/2) is 6e-17 in double precision; a half-space is meant.
+    let cos_cutoff = if cutoff == std::f64::consts::FRAC_PI_2 { 0.0 } else { cutoff.cos() };
+    layout::Light {
+        position: floats(light.position),
+        kind,
+        intensity: floats(light.intensity),
+        radius: light.radius as f32,
+        direction: floats(light.direction),
+        exponent: exponent as f32,
+        cos_cutoff: cos_cutoff as f32,
+        ..Default::default()
+    }
+}
+
+fn object(instance: &Instance) -> layout::Object {
+    let (material, casts_shadow) = (instance.material as u32, u32::from(instance.casts_shadow));
+    layout::Object { material, casts_shadow, ..Default::default() }
+}
+
+fn material(material: &crate::model::Material) -> layout::Material {
+    layout::Material {
+        diffuse: floats(material.diffuse),
+        texture: material.texture.map_or(layout::NO_TEXTURE, |t| t as u32),
+        specular: floats(material.specular),
+        shininess: material.shininess as f32,
+    }
+}
+
+fn textures(scene: &Scene) -> Vec<u8> {
+    let mut offset = 0;
+    list(scene.textures.iter().map(|texture| {
+        let wrap = encoded_wrap(texture.wrap);
+        let encoded = layout::Texture { offset, width: texture.width, height: texture.height, wrap };
+        offset += texture.texels.len() as u32;
+        encoded
+    }))
+}
+
+/// Not a list: an array without a header, of at least one element.
+fn texels(scene: &Scene) -> Vec<u8> {
+    if scene.textures.is_empty() {
+        return vec![0; 4];
+    }
+    scene.textures.iter().flat_map(|t| cast_slice::<u32, u8>(&t.texels)).copied().collect()
+}
+
+/// Header and elements; one zeroed element where there is none.
+fn list<T: Pod>(elements: impl Iterator<Item = T>) -> Vec<u8> {
+    let mut bytes = bytes_of(&layout::Header::zeroed()).to_vec();
+    let mut count = 0u32;
+    for element in elements {
+        bytes.extend_from_slice(bytes_of(&element));
+        count += 1;
+    }
+    if count == 0 {
+        bytes.extend_from_slice(bytes_of(&T::zeroed()));
+    }
+    bytes[..4].copy_from_slice(&count.to_le_bytes());
+    bytes
+}
+
+fn vertices(scene: &Scene, frame: &Frame) -> Vec<u8> {
+    let instances = scene.instances.iter().zip(&frame.transforms);
+    list(instances.flat_map(|(instance, transform)| world_vertices(instance, transform)))
+}
+
+/// Positions through the transform, normals through its cofactors: right for any affine map, also a flattening one.
+fn world_vertices<'a>(instance: &'a Instance, transform: &DAffine3) -> impl Iterator<Item = layout::Vertex> + use<'a> {
+    let transform = *transform;
+    let matrix = transform.matrix3;
+    let sign = if matrix.determinant() < 0.0 { -1.0 } else { 1.0 };
+    let cofactors = DMat3::from_cols(
+        matrix.y_axis.cross(matrix.z_axis),
+        matrix.z_axis.cross(matrix.x_axis),
+        matrix.x_axis.cross(matrix.y_axis),
+    ) * sign;
+    let mesh = &instance.mesh;
+    mesh.positions.iter().zip(&mesh.normals).zip(&mesh.uvs).map(move |((position, normal), uv)| {
+        let turned = (cofactors * normal.as_dvec3()).try_normalize();
+        layout::Vertex {
+            position: floats(transform.transform_point3(position.as_dvec3())),
+            u: uv.x,
+            normal: floats(turned.unwrap_or(normal.as_dvec3())),
+            v: uv.y,
+        }
+    })
+}
+
+/// Corners of all triangles as indices into the encoded vertices, with the index of their instance; turned around where
+/// a transform mirrors, so that they stay counter-clockwise from outside.
+fn world_triangles(scene: &Scene, frame: &Frame) -> impl Iterator<Item = [u32; 4]> {
+    let mut first = 0;
+    let instances = scene.instances.iter().zip(&frame.transforms).enumerate();
+    instances.flat_map(move |(index, (instance, transform))| {
+        let start = first;
+        first += instance.mesh.positions.len() as u32;
+        let mirrored = transform.matrix3.determinant() < 0.0;
+        instance.mesh.triangles.iter().map(move |&[a, b, c]| {
+            let (b, c) = if mirrored { (c, b) } else { (b, c) };
+            [start + a, start + b, start + c, index as u32]
+        })
+    })
+}
+
+fn triangles(scene: &Scene, frame: &Frame) -> Vec<u8> {
+    list(world_triangles(scene, frame))
+}
+
+/// One adjacency per object, with indices into the encoded vertices and triangles.
+pub(crate) fn adjacency(scene: &Scene) -> Vec<Adjacency> {
+    let frame = scene.at(0.0);
+    let instances = scene.instances.iter().zip(&frame.transforms);
+    let positions: Vec<Vec3> =
+        instances.flat_map(|(i, t)| world_vertices(i, t).map(|v| Vec3::from_array(v.position))).collect();
+    let mut of_objects: Vec<(Vec<u32>, Vec<[u32; 3]>)> = vec![Default::default(); scene.objects.len()];
+    for (index, [a, b, c, instance]) in world_triangles(scene, &frame).enumerate() {
+        let object = &mut of_objects[scene.instances[instance as usize].object];
+        object.0.push(index as u32);
+        object.1.push([a, b, c]);
+    }
+    let of_object = |(indices, triangles): (Vec<u32>, Vec<[u32; 3]>)| {
+        // Vertices of one object follow one another; welding only those keeps objects that touch apart.
+        let corners = triangles.iter().flatten();
+        let (least, most) = (corners.clone().min().copied().unwrap_or(0), corners.max().map_or(0, |m| m + 1));
+        let local: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(|i| i - least)).collect();
+        let mut adjacency = Adjacency::of(&positions[least as usize..most as usize], &local);
+        adjacency.rename(least, &indices);
+        adjacency
+    };
+    of_objects.into_iter().map(of_object).collect()
+}

@@ -1,0 +1,240 @@
+//! Materials of a glTF file as the Lambert reflectance of the contract: ρ = base colour × (1 − metallic).
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use gltf::json::material::AlphaMode;
+use gltf::json::texture::{Info, WrappingMode};
+use gltf::json::validation::Checked::Valid;
+use glam::DVec3;
+use image::RgbaImage;
+
+use super::accessors::{Data, absent};
+use super::fault::{At, Checked, Fault, Report, element};
+use super::files::Folder;
+use super::images::Images;
+use super::meshes::UvSource;
+use crate::codes::{GLTF_IGNORED, GLTF_MATERIAL, GLTF_METAL};
+use crate::model::{Material, Texture, Wrap};
+
+/// The materials of a file that are drawn.
+#[derive(Default)]
+pub(crate) struct Materials {
+    /// By index in the file; unused or faulty ones are the default.
+    pub materials: Vec<Material>,
+    /// The texture coordinates that each needs.
+    pub uvs: Vec<Option<UvSource>>,
+    /// To which the materials refer.
+    pub textures: Vec<Texture>,
+}
+
+/// Where a texture comes from: base colour image, metallic image with the factor's bits, wrap modes.
+type Key = (Option<usize>, Option<(usize, u32)>, [Wrap; 2]);
+
+struct Reader<'a> {
+    data: Data<'a>,
+    images: Images<'a>,
+    textures: Vec<Texture>,
+    known: BTreeMap<(Option<usize>, Option<(usize, u32)>, u32), usize>,
+}
+
+/// Reads the materials with the given indices.
+pub(crate) fn read(data: Data, folder: &mut Folder, used: &BTreeSet<usize>, report: &mut Report) -> Materials {
+    let count = data.root.materials.len();
+    let images = Images::new(data, folder);
+    let mut reader = Reader { data, images, textures: Vec::new(), known: BTreeMap::new() };
+    let mut result =
+        Materials { materials: vec![Material::default(); count], uvs: vec![None; count], textures: Vec::new() };
+    for &index in used {
+        let Some(json) = data.root.materials.get(index) else {
+            continue; // The primitive that names it reports it.
+        };
+        let label = || element("material", index, json.name.as_deref());
+        let material = reader.material(index, report).at(label);
+        if let Some((material, uv)) = report.take(material) {
+            result.materials[index] = material;
+            result.uvs[index] = uv;
+        }
+    }
+    result.textures = reader.textures;
+    result
+}
+
+/// A texture of a material: image, wrap modes, texture coordinates.
+#[derive(Clone, Copy, PartialEq)]
+struct Sampled {
+    image: usize,
+    wrap: [Wrap; 2],
+    uv: UvSource,
+}
+
+impl Reader<'_> {
+    fn material(&mut self, index: usize, report: &mut Report) -> Checked<(Material, Option<UvSource>)> {
+        let json = &self.data.root.materials[index];
+        let pbr = &json.pbr_metallic_roughness;
+        let [red, green, blue, _] = pbr.base_color_factor.0;
+        let mut factor = [0.0; 3];
+        for (slot, value) in factor.iter_mut().zip([red, green, blue]) {
+            *slot = unit_interval("baseColorFactor", value)?;
+        }
+        let metallic = unit_interval("metallicFactor", pbr.metallic_factor.0)?;
+        let label = || element("material", index, json.name.as_deref());
+        if json.alpha_mode != Valid(AlphaMode::Opaque) {
+            report.warn(Fault::new(GLTF_IGNORED, format!("{}: alpha is ignored, it is drawn opaque", label())));
+        }
+        let base = self.sampled(pbr.base_color_texture.as_ref(), "baseColorTexture")?;
+        let metal = if metallic > 0.0 {
+            self.sampled(pbr.metallic_roughness_texture.as_ref(), "metallicRoughnessTexture")?
+        } else {
+            None
+        };
+        let mut diffuse = DVec3::from_array(factor);
+        let constant_metal = |diffuse: DVec3, metallic: f64| diffuse * (1.0 - metallic);
+        let (texture, uv) = match (base, metal) {
+            (base, Some(metal)) if base.is_none_or(|base| base.uv == metal.uv) => {
+                let key = (base.map(|b| b.image), Some((metal.image, (metallic as f32).to_bits())));
+                let sampled = base.unwrap_or(metal);
+                (Some(self.texture((key.0, key.1, sampled.wrap))?), Some(sampled.uv))
+            }
+            (Some(base), Some(metal)) => {
+                let mean = mean_blue(self.images.get(metal.image)?.as_ref());
+                let message = "base colour and metallic have different texture coordinates; the mean metallic is used";
+                report.warn(Fault::new(GLTF_IGNORED, format!("{}: {message}", label())));
+                diffuse = constant_metal(diffuse, metallic * mean);
+                (Some(self.texture((Some(base.image), None, base.wrap))?), Some(base.uv))
+            }
+            (base, None) => {
+                diffuse = constant_metal(diffuse, metallic);
+                let texture = base.map(|base| self.texture((Some(base.image), None, base.wrap))).transpose()?;
+                (texture, base.map(|base| base.uv))
+            }
+            (None, Some(_)) => unreachable!("without a base colour texture the first arm holds"),
+        };
+        if diffuse == DVec3::ZERO && metallic == 1.0 {
+            let message = "is wholly metallic, has no diffuse reflectance and is drawn black; an object of the scene \
+                           file may name a material instead";
+            report.warn(Fault::new(GLTF_METAL, format!("{} {message}", label())));
+        }
+        Ok((Material { diffuse, texture, ..Material::default() }, uv))
+    }
+
+    fn sampled(&self, info: Option<&Info>, name: &str) -> Checked<Option<Sampled>> {
+        let Some(info) = info else { return Ok(None) };
+        self.resolve(info).map(Some).at(|| name.to_owned())
+    }
+
+    fn resolve(&self, info: &Info) -> Checked<Sampled> {
+        let root = self.data.root;
+        let index = info.index.value();
+        let texture = root.textures.get(index).ok_or_else(|| absent("texture", index))?;
+        let image = texture.source.value();
+        if image >= root.images.len() {
+            return Err(absent("image", image)).at(|| element("texture", index, texture.name.as_deref()));
+        }
+        let wrap = match texture.sampler.map(|s| s.value()) {
+            None => [Wrap::Repeat; 2],
+            Some(index) => {
+                let sampler = root.samplers.get(index).ok_or_else(|| absent("sampler", index))?;
+                [sampler.wrap_s, sampler.wrap_t].map(|mode| match mode {
+                    Valid(WrappingMode::ClampToEdge) => Wrap::Clamp,
+                    Valid(WrappingMode::MirroredRepeat) => Wrap::Mirror,
+                    _ => Wrap::Repeat,
+                })
+            }
+        };
+        let transform = info.extensions.as_ref().and_then(|e| e.texture_transform.as_ref());
+        let uv = match transform {
+            None => UvSource::new(info.tex_coord, [0.0; 2], 0.0, [1.0; 2]),
+            Some(t) => {
+                UvSource::new(t.tex_coord.unwrap_or(info.tex_coord), t.offset.0, t.rotation.0, t.scale.0)
+            }
+        };
+        if !uv.transform.is_finite() {
+            return Err(Fault::new(GLTF_MATERIAL, "KHR_texture_transform is not finite"));
+        }
+        Ok(Sampled { image, wrap, uv })
+    }
+
+    /// The texture of a base colour image whose texels are multiplied by 1 − metallic; of both, either may be absent.
+    fn texture(&mut self, (base, metal, wrap): Key) -> Checked<usize> {
+        let key = (base, metal, encoded_wrap(wrap));
+        if let Some(&known) = self.known.get(&key) {
+            return Ok(known);
+        }
+        let base = base.map(|image| self.images.get(image)).transpose()?;
+        let metal = metal.map(|(image, factor)| Ok((self.images.get(image)?, f32::from_bits(factor)))).transpose()?;
+        self.textures.push(baked(base.as_ref(), metal.as_ref(), wrap));
+        self.known.insert(key, self.textures.len() - 1);
+        Ok(self.textures.len() - 1)
+    }
+}
+
+/// Wrap modes as `Texture.wrap` of `scene.wgsl`.
+pub(crate) fn encoded_wrap(wrap: [Wrap; 2]) -> u32 {
+    wrap[0] as u32 | (wrap[1] as u32) << 2
+}
+
+fn unit_interval(name: &str, value: f32) -> Checked<f64> {
+    // Exporters round; what is further out was not meant.
+    if (-1e-3..=1.001).contains(&value) {
+        Ok(f64::from(value).clamp(0.0, 1.0))
+    } else {
+        Err(Fault::new(GLTF_MATERIAL, format!("{name} {value} does not lie in 0..1")))
+    }
+}
+
+fn mean_blue(image: &RgbaImage) -> f64 {
+    let sum: u64 = image.pixels().map(|p| u64::from(p.0[2])).sum();
+    sum as f64 / 255.0 / f64::from(image.width() * image.height())
+}
+
+fn baked(base: Option<&Arc<RgbaImage>>, metal: Option<&(Arc<RgbaImage>, f32)>, wrap: [Wrap; 2]) -> Texture {
+    let (width, height) = base.or(metal.map(|m| &m.0)).map_or((1, 1), |image| image.dimensions());
+    let linear: [f64; 256] = std::array::from_fn(|i| linear_from_srgb(i as f64 / 255.0));
+    let mut texels = Vec::with_capacity(width as usize * height as usize);
+    for y in 0..height {
+        for x in 0..width {
+            let mut texel = base.map_or([255; 4], |image| image.get_pixel(x, y).0);
+            if let Some((image, factor)) = metal {
+                let at = |i: u32, size: u32, other: u32| (u64::from(i) * u64::from(other) / u64::from(size)) as u32;
+                let blue = image.get_pixel(at(x, width, image.width()), at(y, height, image.height())).0[2];
+                if blue > 0 {
+                    let kept = 1.0 - f64::from(*factor) * f64::from(blue) / 255.0;
+                    for channel in &mut texel[..3] {
+                        let value = srgb_from_linear(linear[usize::from(*channel)] * kept);
+                        *channel = (value * 255.0).round() as u8;
+                    }
+                }
+            }
+            texels.push(u32::from_le_bytes(texel));
+        }
+    }
+    Texture { width, height, wrap, texels }
+}
+
+/// IEC 61966-2-1.
+fn linear_from_srgb(value: f64) -> f64 {
+    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+}
+
+/// IEC 61966-2-1.
+fn srgb_from_linear(value: f64) -> f64 {
+    if value <= 0.003_130_8 { value * 12.92 } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use image::Rgba;
+
+    #[test]
+    fn metallic_texels_darken_in_linear_light() {
+        let base = Arc::new(RgbaImage::from_pixel(4, 2, Rgba([200, 100, 0, 255])));
+        let metal = (Arc::new(RgbaImage::from_fn(2, 1, |x, _| Rgba([9, 9, x as u8 * 255, 9]))), 0.5);
+        let texture = baked(Some(&base), Some(&metal), [Wrap::Repeat; 2]);
+        let texel = |x: usize| texture.texels[x].to_le_bytes();
+        assert_eq!(texel(1), [200, 100, 0, 255]);
+        let half = |v: u8| srgb_from_linear(linear_from_srgb(f64::from(v) / 255.0) / 2.0) * 255.0;
+        assert_eq!(texel(2), [half(200).round() as u8, half(100).round() as u8, 0, 255]);
+    }
+}

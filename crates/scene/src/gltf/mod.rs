@@ -1,0 +1,181 @@
+//! glTF 2.0 files (`.glb`, `.gltf`): meshes, node transforms and their animation, base colour, punctual lights, cameras.
+//!
+//! The JSON is read with `gltf-json`; everything that an index, offset or count refers to is checked here, so that a
+//! broken or hostile file ends in a diagnostic that names the element. Not read: skins, morph targets, vertex colours,
+//! points and lines, alpha, emission; sparse accessors and quantised meshes are.
+
+mod accessors;
+mod container;
+mod fault;
+mod files;
+mod images;
+mod lights;
+mod materials;
+mod meshes;
+mod motion;
+mod nodes;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use gltf::json::{Mesh as JsonMesh, Root};
+use tyndall_document::Diagnostics;
+
+use self::accessors::{Data, absent};
+use self::fault::{At, Checked, Fault, Report, element};
+use self::files::Folder;
+use self::materials::Materials;
+use self::meshes::Budget;
+use crate::codes::{GLTF_BUFFER_RANGE, GLTF_IGNORED, GLTF_MODE, GLTF_REFERENCE};
+use crate::mesh::Mesh;
+use crate::model::{Material, Node, Texture};
+
+pub(crate) use self::lights::ModelLight;
+pub(crate) use self::materials::encoded_wrap;
+pub(crate) use self::meshes::MOST_ELEMENTS;
+pub(crate) use self::motion::Motion;
+
+/// What was read of a file.
+#[derive(Debug, Default)]
+pub(crate) struct Model {
+    pub nodes: Arc<Vec<Node>>,
+    pub parts: Vec<Part>,
+    pub materials: Vec<Material>,
+    pub textures: Vec<Texture>,
+    pub lights: Vec<ModelLight>,
+    /// Node and whole vertical angle (radians) of the first perspective camera.
+    pub camera: Option<(usize, f64)>,
+}
+
+/// A mesh primitive at a node.
+#[derive(Debug)]
+pub(crate) struct Part {
+    pub node: usize,
+    pub mesh: Arc<Mesh>,
+    /// Index into the model's materials.
+    pub material: Option<usize>,
+}
+
+/// The result of reading a file: nothing where there were errors.
+pub(crate) struct Loaded {
+    pub model: Option<Model>,
+    pub diagnostics: Diagnostics,
+    /// Every file that was read besides the glTF file itself.
+    pub files: Vec<PathBuf>,
+}
+
+/// Reads a file; `name` is what messages call it.
+pub(crate) fn load(file: &Path, name: &str) -> Loaded {
+    let mut report = Report::new(name);
+    let mut folder = Folder::of(file);
+    let bytes = files::read(file);
+    let model = match bytes.and_then(|bytes| model(&bytes, &mut folder, &mut report)) {
+        Ok(model) => Some(model).filter(|_| !report.failed()),
+        Err(fault) => {
+            report.fault(fault);
+            None
+        }
+    };
+    Loaded { model, diagnostics: report.finish(), files: folder.read }
+}
+
+fn model(bytes: &[u8], folder: &mut Folder, report: &mut Report) -> Checked<Model> {
+    let (json, binary) = container::split(bytes)?;
+    let root = container::parse(json)?;
+    let buffers = buffers(&root, binary, folder)?;
+    let data = Data { root: &root, buffers: &buffers };
+    let tracks = motion::tracks(data, report);
+    let hierarchy = nodes::hierarchy(&root, tracks)?;
+    let drawn: BTreeSet<usize> =
+        hierarchy.iter().filter_map(|(index, _)| root.nodes[*index].mesh.map(|m| m.value())).collect();
+    let primitives = drawn.iter().filter_map(|&m| root.meshes.get(m)).flat_map(|m| &m.primitives);
+    let used = primitives.filter_map(|p| p.material.map(|m| m.value())).collect();
+    let materials = materials::read(data, folder, &used, report);
+    let meshes = meshes_of(data, &drawn, &materials, report);
+    let mut parts = Vec::new();
+    for (node, (index, _)) in hierarchy.iter().enumerate() {
+        let json = &root.nodes[*index];
+        let Some(mesh) = json.mesh.map(|m| m.value()) else { continue };
+        let label = || element("node", *index, json.name.as_deref());
+        if mesh >= root.meshes.len() {
+            report.fault(Fault::new(GLTF_REFERENCE, format!("{}: mesh {mesh} does not exist", label())));
+        }
+        if json.skin.is_some() {
+            report.warn(Fault::new(GLTF_IGNORED, format!("{}: its skin is ignored", label())));
+        }
+        for (mesh, material) in meshes.get(&mesh).into_iter().flatten() {
+            parts.push(Part { node, mesh: Arc::clone(mesh), material: *material });
+        }
+    }
+    let lights = lights::lights(&root, &hierarchy, report);
+    let camera = lights::camera(&root, &hierarchy, report);
+    let nodes = Arc::new(hierarchy.into_iter().map(|(_, node)| node).collect());
+    Ok(Model { nodes, parts, materials: materials.materials, textures: materials.textures, lights, camera })
+}
+
+/// Mesh and material of each primitive of each drawn mesh.
+type Meshes = BTreeMap<usize, Vec<(Arc<Mesh>, Option<usize>)>>;
+
+fn meshes_of(data: Data, drawn: &BTreeSet<usize>, materials: &Materials, report: &mut Report) -> Meshes {
+    let mut budget = Budget { left: MOST_ELEMENTS };
+    let mut meshes = Meshes::new();
+    for &index in drawn {
+        let Some(json) = data.root.meshes.get(index) else { continue };
+        let primitives = meshes.entry(index).or_default();
+        for number in 0..json.primitives.len() {
+            let label = || format!("{}, primitive {number}", element("mesh", index, json.name.as_deref()));
+            match primitive(data, json, number, materials, &mut budget).at(label) {
+                Ok(Some(part)) => primitives.push(part),
+                Ok(None) => {
+                    let message = format!("{} has points or lines, which are not drawn", label());
+                    report.warn(Fault::new(GLTF_MODE, message));
+                }
+                Err(fault) => report.fault(fault),
+            }
+            if json.primitives[number].targets.is_some() {
+                report.warn(Fault::new(GLTF_IGNORED, format!("{}: morph targets are ignored", label())));
+            }
+        }
+    }
+    meshes
+}
+
+type Drawn = (Arc<Mesh>, Option<usize>);
+
+fn primitive(
+    data: Data,
+    mesh: &JsonMesh,
+    number: usize,
+    materials: &Materials,
+    budget: &mut Budget,
+) -> Checked<Option<Drawn>> {
+    let json = &mesh.primitives[number];
+    let material = json.material.map(|m| m.value());
+    if let Some(index) = material.filter(|&index| index >= data.root.materials.len()) {
+        return Err(absent("material", index));
+    }
+    let uv = material.and_then(|index| materials.uvs[index]);
+    let mesh = meshes::mesh(data, json, uv, budget)?;
+    Ok(mesh.map(|mesh| (Arc::new(mesh), material)))
+}
+
+/// The bytes of every buffer, each at least as long as announced.
+fn buffers(root: &Root, binary: Option<&[u8]>, folder: &mut Folder) -> Checked<Vec<Vec<u8>>> {
+    let mut bytes_of = |index: usize, buffer: &gltf::json::Buffer| {
+        let bytes = match (&buffer.uri, binary) {
+            (Some(uri), _) => folder.fetch(uri)?,
+            (None, Some(binary)) if index == 0 => binary.to_vec(),
+            (None, _) => return Err(Fault::new(GLTF_REFERENCE, "has no uri, and the file has no binary chunk for it")),
+        };
+        match usize::try_from(buffer.byte_length.0) {
+            Ok(length) if length <= bytes.len() => Ok(bytes),
+            _ => {
+                let message = format!("announces {} bytes, there are {}", buffer.byte_length.0, bytes.len());
+                Err(Fault::new(GLTF_BUFFER_RANGE, message))
+            }
+        }
+    };
+    let buffers = root.buffers.iter().enumerate();
+    buffers.map(|(i, b)| bytes_of(i, b).at(|| element("buffer", i, b.name.as_deref()))).collect()
+}

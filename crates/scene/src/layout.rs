@@ -1,0 +1,156 @@
+//! The structs of `shaders/scene.wgsl` as bytes; a test compares offsets and sizes with that file.
+
+use bytemuck::{Pod, Zeroable};
+
+/// `Camera`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct Camera {
+    /// m, world.
+    pub position: [f32; 3],
+    /// 0.
+    pub padding: f32,
+    /// Unit vector times the tangent of half the horizontal field of view.
+    pub right: [f32; 3],
+    /// 0.
+    pub pad0: f32,
+    /// Unit vector times the tangent of half the vertical field of view.
+    pub up: [f32; 3],
+    /// 0.
+    pub pad1: f32,
+    /// Unit vector.
+    pub forward: [f32; 3],
+    /// 0.
+    pub pad2: f32,
+}
+
+/// `Medium`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct Medium {
+    /// σ_t, 1/m.
+    pub extinction: [f32; 3],
+    /// Which phase function.
+    pub phase: u32,
+    /// σ_s, 1/m.
+    pub scattering: [f32; 3],
+    /// g, k or g1.
+    pub g1: f32,
+    /// g2.
+    pub g2: f32,
+    /// f, weight of g2.
+    pub weight: f32,
+    /// Width of the first lobe.
+    pub rho1: f32,
+    /// Width of the second lobe.
+    pub rho2: f32,
+}
+
+/// `Background`, padded to the 16 bytes that a uniform takes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct Background {
+    /// W/(sr·m²).
+    pub radiance: [f32; 3],
+    /// 0.
+    pub pad: f32,
+}
+
+/// `Light`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct Light {
+    /// m.
+    pub position: [f32; 3],
+    /// 0 Point, 1 Spot, 2 Directional.
+    pub kind: u32,
+    /// W/sr or W/m².
+    pub intensity: [f32; 3],
+    /// m.
+    pub radius: f32,
+    /// Unit vector, the way the light travels.
+    pub direction: [f32; 3],
+    /// N.
+    pub exponent: f32,
+    /// Cosine of the half-angle.
+    pub cos_cutoff: f32,
+    /// 0.
+    pub pad0: f32,
+    /// 0.
+    pub pad1: f32,
+    /// 0.
+    pub pad2: f32,
+}
+
+/// What stands before the elements of every list.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct Header {
+    /// Number of elements.
+    pub count: u32,
+    /// 0.
+    pub pad0: u32,
+    /// 0.
+    pub pad1: u32,
+    /// 0.
+    pub pad2: u32,
+}
+
+/// `Vertex`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Vertex {
+    /// m, world.
+    pub position: [f32; 3],
+    /// Texture coordinate.
+    pub u: f32,
+    /// Unit vector, world.
+    pub normal: [f32; 3],
+    /// Texture coordinate.
+    pub v: f32,
+}
+
+/// `Object`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct Object {
+    /// Index into the materials.
+    pub material: u32,
+    /// 0 or 1.
+    pub casts_shadow: u32,
+    /// 0.
+    pub pad0: u32,
+    /// 0.
+    pub pad1: u32,
+}
+
+/// `Material`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct Material {
+    /// ρ.
+    pub diffuse: [f32; 3],
+    /// Index into the textures, or `NO_TEXTURE`.
+    pub texture: u32,
+    /// k_s.
+    pub specular: [f32; 3],
+    /// n.
+    pub shininess: f32,
+}
+
+/// `NO_TEXTURE`.
+pub const NO_TEXTURE: u32 = u32::MAX;
+
+/// `Texture`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct Texture {
+    /// Of its first texel.
+    pub offset: u32,
+    /// Texels.
+    pub width: u32,
+    /// Texels.
+    pub height: u32,
+    /// Wrap of u in bits 0 and 1, of v in bits 2 and 3.
+    pub wrap: u32,
+}

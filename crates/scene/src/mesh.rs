@@ -1,0 +1,65 @@
+//! Triangle meshes in their own space, before any transform.
+
+use glam::{Vec2, Vec3};
+
+/// An indexed triangle mesh. `positions`, `normals` and `uvs` have one entry per vertex.
+///
+/// Triangles run counter-clockwise seen from outside (right-handed space).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Metres, in the space of the object or glTF node.
+    pub positions: Vec<Vec3>,
+    /// Unit normals.
+    pub normals: Vec<Vec3>,
+    /// Texture coordinates, (0, 0) the first texel of the image's top row, as in glTF.
+    pub uvs: Vec<Vec2>,
+    /// Three vertex indices each, all below `positions.len()`.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl Mesh {
+    /// Not normalised; its length is twice the triangle's area.
+    pub(crate) fn area_normal(&self, triangle: [u32; 3]) -> Vec3 {
+        let [a, b, c] = triangle.map(|i| self.positions[i as usize]);
+        (b - a).cross(c - a)
+    }
+
+    /// Gives every triangle three vertices of its own with the triangle's normal (glTF 2.0, 3.7.2.1: a primitive
+    /// without normals is shaded flat).
+    pub(crate) fn flattened(&self) -> Mesh {
+        let mut flat = Mesh::default();
+        for &triangle in &self.triangles {
+            let normal = self.area_normal(triangle).try_normalize().unwrap_or(Vec3::Y);
+            let first = flat.positions.len() as u32;
+            for index in triangle {
+                flat.positions.push(self.positions[index as usize]);
+                flat.uvs.push(self.uvs[index as usize]);
+                flat.normals.push(normal);
+            }
+            flat.triangles.push([first, first + 1, first + 2]);
+        }
+        flat
+    }
+
+    /// Brings normals to unit length; a normal of no length becomes the mean of its triangles' normals.
+    pub(crate) fn repair_normals(&mut self) {
+        let mut missing = Vec::new();
+        for (index, normal) in self.normals.iter_mut().enumerate() {
+            match normal.try_normalize() {
+                Some(unit) => *normal = unit,
+                None => missing.push(index),
+            }
+        }
+        if missing.is_empty() {
+            return;
+        }
+        let mut sums = vec![Vec3::ZERO; self.positions.len()];
+        for &triangle in &self.triangles {
+            let normal = self.area_normal(triangle);
+            triangle.iter().for_each(|&i| sums[i as usize] += normal);
+        }
+        for index in missing {
+            self.normals[index] = sums[index].try_normalize().unwrap_or(Vec3::Y);
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! From what a scene file says to a scene: reads the glTF files and decides camera, lights and materials.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use tyndall_document::{Diagnostic, Diagnostics, MISSING_FILE, Span};
+
+use crate::animate::Animated;
+use crate::codes::{GLTF_METAL, MISSING_CAMERA, SCENE_TOO_LARGE, UNKNOWN_SUFFIX};
+use crate::decode::{CameraDraft, Draft, MeshDraft, ObjectDraft};
+use crate::gltf::{self, MOST_ELEMENTS, Model};
+use crate::mesh::Mesh;
+use crate::model::{Camera, Instance, Light, Material, Object, Placement};
+use crate::overrides::Merged;
+use crate::primitives::Primitive;
+use crate::scene::Scene;
+
+/// Reads each file once, however many objects name it.
+struct Files<'a> {
+    merged: &'a Merged,
+    folder: &'a Path,
+    out: &'a mut Diagnostics,
+    known: BTreeMap<PathBuf, Option<Arc<Model>>>,
+    /// The paths of objects that name no material of their own.
+    plain: BTreeSet<String>,
+    read: Vec<PathBuf>,
+}
+
+/// The scene; `None` where a mistake leaves nothing to make of it. Every mistake is in `out`.
+pub(crate) fn scene(
+    draft: Draft,
+    merged: &Merged,
+    whole: Span,
+    folder: &Path,
+    out: &mut Diagnostics,
+) -> Option<Scene> {
+    let plain = draft.objects.iter().filter(|object| object.material.is_none());
+    let plain = plain.filter_map(|object| match &object.mesh {
+        MeshDraft::File(text, _) => Some(text.clone()),
+        MeshDraft::Primitive(_) => None,
+    });
+    let plain = plain.collect();
+    let mut files = Files { merged, folder, out, known: BTreeMap::new(), plain, read: Vec::new() };
+    let models: Vec<Option<Arc<Model>>> = draft.objects.iter().map(|object| files.model(object)).collect();
+    let complete = draft.objects.iter().zip(&models).all(|(o, m)| m.is_some() == matches!(o.mesh, MeshDraft::File(..)));
+    let read = files.read;
+    let camera = camera(draft.camera, &models).or_else(|| {
+        // Where a file could not be read nobody knows whether it has a camera.
+        if complete {
+            let message = "there is no camera: the scene file gives none, and no glTF file that it names has one";
+            let place = merged.source.place(Span::new(whole.start, whole.start + 1));
+            let hint = "add `camera: (position: (…), look_at: (…))`";
+            out.push(Diagnostic::error(MISSING_CAMERA, place, message).suggest(hint));
+        }
+        None
+    });
+    if !complete {
+        return None;
+    }
+    let mut scene = Scene::new(camera?, read);
+    scene.medium = draft.medium;
+    scene.background = draft.background;
+    scene.lights = draft.lights.unwrap_or_else(|| lights(&models));
+    let mut shared = Shared::default();
+    for (object, model) in draft.objects.into_iter().zip(&models) {
+        add(&mut scene, object, model.as_deref(), &mut shared);
+    }
+    within_limits(&scene, merged, whole, out).then_some(scene)
+}
+
+impl Files<'_> {
+    fn model(&mut self, object: &ObjectDraft) -> Option<Arc<Model>> {
+        let MeshDraft::File(text, span) = &object.mesh else { return None };
+        // Paths on the command line are relative to the working directory.
+        let path = if self.merged.is_argument(*span) { PathBuf::from(text) } else { self.folder.join(text) };
+        if let Some(known) = self.known.get(&path) {
+            return known.clone();
+        }
+        let loaded = self.load(&path, *span, self.plain.contains(text));
+        self.known.insert(path, loaded.clone());
+        loaded
+    }
+
+    fn load(&mut self, path: &Path, span: Span, materials_count: bool) -> Option<Arc<Model>> {
+        let name = path.display().to_string();
+        let place = self.merged.source.place(span);
+        let suffix = path.extension().map(|s| s.to_string_lossy().to_ascii_lowercase());
+        if !matches!(suffix.as_deref(), Some("glb" | "gltf")) {
+            let message = format!("`{name}` is neither a .glb nor a .gltf file");
+            self.out.push(Diagnostic::error(UNKNOWN_SUFFIX, place, message));
+            return None;
+        }
+        if !path.exists() {
+            self.out.push(Diagnostic::error(MISSING_FILE, place, format!("there is no file `{name}`")));
+            return None;
+        }
+        let loaded = gltf::load(path, &name);
+        let told = loaded.diagnostics.into_iter().filter(|d| materials_count || d.code != GLTF_METAL);
+        self.out.extend(told.map(|d| d.relate(place.clone(), "named here")));
+        self.read.push(path.to_owned());
+        self.read.extend(loaded.files);
+        loaded.model.map(Arc::new)
+    }
+}
+
+fn camera(draft: CameraDraft, models: &[Option<Arc<Model>>]) -> Option<Camera> {
+    let given = match draft {
+        CameraDraft::Given(camera) => return Some(camera),
+        CameraDraft::Model { vertical_fov } => vertical_fov,
+    };
+    models.iter().enumerate().find_map(|(object, loaded)| {
+        let (node, angle) = loaded.as_ref()?.camera?;
+        Some(Camera::Node { object, node, vertical_fov: given.unwrap_or(angle) })
+    })
+}
+
+fn lights(models: &[Option<Arc<Model>>]) -> Vec<Light> {
+    let mut lights = Vec::new();
+    for (object, loaded) in models.iter().enumerate() {
+        for light in loaded.iter().flat_map(|l| &l.lights) {
+            lights.push(Light {
+                kind: light.kind,
+                intensity: Animated::Constant(light.intensity),
+                radius: 0.0,
+                placement: Placement::Node { object, node: light.node },
+            });
+        }
+    }
+    lights
+}
+
+/// What objects have in common.
+#[derive(Default)]
+struct Shared {
+    /// Where the materials of a model start in the scene's list.
+    models: BTreeMap<*const Model, usize>,
+    /// Where the default material stands.
+    material: Option<usize>,
+    /// Meshes of primitives: equal ones are made once.
+    meshes: Vec<(Primitive, Arc<Mesh>)>,
+}
+
+impl Shared {
+    fn mesh(&mut self, primitive: Primitive) -> Arc<Mesh> {
+        if let Some((_, mesh)) = self.meshes.iter().find(|known| known.0 == primitive) {
+            return Arc::clone(mesh);
+        }
+        let mesh = Arc::new(primitive.mesh());
+        self.meshes.push((primitive, Arc::clone(&mesh)));
+        mesh
+    }
+
+    fn default_material(&mut self, list: &mut Vec<Material>) -> usize {
+        *self.material.get_or_insert_with(|| push(list, Material::default()))
+    }
+}
+
+fn add(scene: &mut Scene, draft: ObjectDraft, model: Option<&Model>, shared: &mut Shared) {
+    let object = scene.objects.len();
+    let ObjectDraft { mesh, translation, rotation, scale, material, casts_shadow } = draft;
+    let nodes = model.map(|m| Arc::clone(&m.nodes)).unwrap_or_default();
+    scene.objects.push(Object { translation, rotation, scale, nodes });
+    let own = material.map(|material| push(&mut scene.materials, material));
+    match (mesh, model) {
+        (MeshDraft::Primitive(primitive), _) => {
+            let material = own.unwrap_or_else(|| shared.default_material(&mut scene.materials));
+            let mesh = shared.mesh(primitive);
+            scene.instances.push(Instance { object, node: None, mesh, material, casts_shadow });
+        }
+        (MeshDraft::File(..), Some(model)) => {
+            let first = match own {
+                Some(_) => 0,
+                None => *shared.models.entry(std::ptr::from_ref(model)).or_insert_with(|| adopt(scene, model)),
+            };
+            for part in &model.parts {
+                let material = own.or(part.material.map(|m| first + m));
+                let material = material.unwrap_or_else(|| shared.default_material(&mut scene.materials));
+                let (node, mesh) = (Some(part.node), Arc::clone(&part.mesh));
+                scene.instances.push(Instance { object, node, mesh, material, casts_shadow });
+            }
+        }
+        (MeshDraft::File(..), None) => {}
+    }
+}
+
+fn push(list: &mut Vec<Material>, material: Material) -> usize {
+    list.push(material);
+    list.len() - 1
+}
+
+/// Takes a model's materials and textures over; gives the index of its first material.
+fn adopt(scene: &mut Scene, model: &Model) -> usize {
+    let first = scene.materials.len();
+    let textures = scene.textures.len();
+    scene.textures.extend(model.textures.iter().cloned());
+    let moved = |m: &Material| Material { texture: m.texture.map(|t| t + textures), ..*m };
+    scene.materials.extend(model.materials.iter().map(moved));
+    first
+}
+
+fn within_limits(scene: &Scene, merged: &Merged, whole: Span, out: &mut Diagnostics) -> bool {
+    let sum = |of: fn(&Instance) -> usize| scene.instances.iter().map(of).sum::<usize>();
+    let texels: usize = scene.textures.iter().map(|t| t.texels.len()).sum();
+    let counts = [
+        ("vertices", sum(|i| i.mesh.positions.len()), MOST_ELEMENTS),
+        ("triangles", sum(|i| i.mesh.triangles.len()), MOST_ELEMENTS),
+        ("texels", texels, 4 * MOST_ELEMENTS),
+    ];
+    let mut fits = true;
+    for (name, count, most) in counts {
+        if count > most {
+            let place = merged.source.place(Span::new(whole.start, whole.start + 1));
+            let message = format!("the scene has {count} {name}; at most {most} are possible");
+            out.push(Diagnostic::error(SCENE_TOO_LARGE, place, message));
+            fits = false;
+        }
+    }
+    fits
+}

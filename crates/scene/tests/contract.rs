@@ -1,0 +1,234 @@
+//! The scene file of the contract, its defaults, and what they become.
+
+use std::path::Path;
+
+use tyndall_document::{Diagnostics, Source, render_text};
+use tyndall_scene::layout;
+use tyndall_scene::{Override, Overrides, SCENE_DATA, Scene};
+
+fn read_with(text: &str, overrides: &[(&str, &str)]) -> Result<Scene, Diagnostics> {
+    let mut out = Diagnostics::default();
+    let argument = |path: &str, value: &str| format!("--set scene.{path}={value}");
+    let overrides: Overrides = overrides
+        .iter()
+        .map(|(p, v)| Override::read(p, v, &argument(p, v), &mut out).expect("the value is RON"))
+        .collect();
+    Scene::from_source(&Source::new("test.scene.ron", text), Path::new("."), &overrides).map(|s| s.0)
+}
+
+fn read(text: &str) -> Scene {
+    read_with(text, &[]).unwrap_or_else(|errors| panic!("{}", render_text(&errors, false)))
+}
+
+const CAMERA: &str = "camera: (position: (0, 1, 5), look_at: (0, 1, 0)),";
+
+fn with_camera(rest: &str) -> Scene {
+    read(&format!("({CAMERA} {rest})"))
+}
+
+fn view<T: bytemuck::Pod>(scene: &Scene, name: &str) -> T {
+    *bytemuck::from_bytes(scene.encode(0.0, 2.0).bytes(name))
+}
+
+fn items<T: bytemuck::Pod>(scene: &Scene, name: &str) -> Vec<T> {
+    let encoded = scene.encode(0.0, 2.0);
+    let bytes = encoded.bytes(name);
+    let count = u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]) as usize;
+    let elements: Vec<T> = bytemuck::pod_collect_to_vec(&bytes[16..]);
+    assert_eq!(elements.len(), count.max(1), "{name}");
+    elements[..count].to_vec()
+}
+
+#[test]
+fn everything_of_the_contract() {
+    let text = r#"(
+        camera: (position: (0.0, 1.7, 6.0), look_at: (0.0, 1.0, 0.0), up: (0.0, 1.0, 0.0), vertical_fov: 45.0),
+        medium: (extinction: (0.05, 0.06, 0.07), albedo: (1.0, 0.5, 1.0), phase: HenyeyGreenstein(g: 0.75)),
+        background: (0.1, 0.2, 0.3),
+        lights: [
+            Point(position: (1.0, 3.0, 0.0), intensity: (20.0, 18.0, 15.0), radius: 0.1),
+            Spot(position: (0.0, 4.0, 0.0), direction: (0.0, -2.0, 0.0), intensity: (30.0, 30.0, 30.0), exponent: 8.0, cutoff: 60.0),
+            Directional(direction: (0.3, -1.0, 0.2), irradiance: (1.0, 1.0, 1.0)),
+        ],
+        objects: [
+            (mesh: Sphere(radius: 1.0), translation: (0.0, 1.0, 0.0), material: (diffuse: (0.7, 0.6, 0.5), specular: (0.2, 0.2, 0.2), shininess: 20.0)),
+            (mesh: Box(size: (1.0, 2.0, 1.0)), translation: (2.0, 1.0, 0.0), rotation: (axis: (0.0, 1.0, 0.0), angle: 30.0)),
+            (mesh: Torus(major: 1.0, minor: 0.3), translation: (-2.0, 1.0, 0.0)),
+            (mesh: Plane(size: (20.0, 20.0)), casts_shadow: false, material: (specular: (0.1, 0.1, 0.1))),
+        ],
+    )"#;
+    let scene = read(text);
+    let lights: Vec<layout::Light> = items(&scene, "lights");
+    assert_eq!(lights.iter().map(|l| l.kind).collect::<Vec<_>>(), [0, 1, 2]);
+    assert_eq!((lights[0].radius, lights[0].intensity), (0.1, [20.0, 18.0, 15.0]));
+    assert_eq!((lights[1].direction, lights[1].exponent), ([0.0, -1.0, 0.0], 8.0));
+    assert!((lights[1].cos_cutoff - 0.5).abs() < 1e-6);
+    let medium: layout::Medium = view(&scene, "medium");
+    assert_eq!((medium.phase, medium.g1, medium.scattering), (1, 0.75, [0.05, 0.03, 0.07]));
+    assert!((medium.rho1 - 0.25 / 1.75).abs() < 1e-7);
+    let background: layout::Background = view(&scene, "background");
+    assert_eq!(background.radiance, [0.1, 0.2, 0.3]);
+    let objects: Vec<layout::Object> = items(&scene, "objects");
+    assert_eq!(objects.iter().map(|o| o.casts_shadow).collect::<Vec<_>>(), [1, 1, 1, 0]);
+    let materials: Vec<layout::Material> = items(&scene, "materials");
+    let of = |i: usize| materials[objects[i].material as usize];
+    assert_eq!((of(0).diffuse, of(0).shininess), ([0.7, 0.6, 0.5], 20.0));
+    assert_eq!((of(1).diffuse, of(1).specular, of(1).shininess, of(1).texture), ([0.8; 3], [0.0; 3], 1.0, u32::MAX));
+    assert_eq!((of(3).diffuse, of(3).specular), ([0.8; 3], [0.1; 3]));
+    assert!(scene.animated().is_empty());
+    let names: Vec<&str> = scene.encode(0.0, 1.0).items.iter().map(|i| i.0).collect();
+    assert_eq!(names, SCENE_DATA);
+}
+
+#[test]
+fn defaults() {
+    let scene = with_camera("");
+    let medium: layout::Medium = view(&scene, "medium");
+    assert_eq!((medium.extinction, medium.scattering, medium.phase), ([0.0; 3], [0.0; 3], 0));
+    let camera: layout::Camera = view(&scene, "camera");
+    let tangent = (45f64.to_radians() / 2.0).tan() as f32;
+    assert_eq!((camera.position, camera.forward), ([0.0, 1.0, 5.0], [0.0, 0.0, -1.0]));
+    assert_eq!((camera.up, camera.right), ([0.0, tangent, 0.0], [2.0 * tangent, 0.0, 0.0]));
+    assert!(items::<layout::Light>(&scene, "lights").is_empty());
+    assert!(items::<layout::Vertex>(&scene, "vertices").is_empty());
+    assert!(items::<[u32; 4]>(&scene, "triangles").is_empty());
+    assert!(scene.bounds(0.0).is_none());
+    let given = with_camera("medium: (extinction: (1, 2, 3)), lights: [Spot(position: (0, 0, 0), direction: (1, 0, 0), intensity: (1, 1, 1))]");
+    let medium: layout::Medium = view(&given, "medium");
+    assert_eq!((medium.scattering, medium.phase, medium.rho1, medium.rho2), ([1.0, 2.0, 3.0], 0, 1.0, 1.0));
+    let spot = items::<layout::Light>(&given, "lights")[0];
+    assert_eq!((spot.cos_cutoff, spot.exponent, spot.radius), (0.0, 0.0, 0.0));
+}
+
+#[test]
+fn phase_functions() {
+    for (text, kind, g1, g2, weight) in [
+        ("Isotropic", 0, 0.0, 0.0, 0.0),
+        ("Isotropic()", 0, 0.0, 0.0, 0.0),
+        ("HenyeyGreenstein(g: -0.5)", 1, -0.5, 0.0, 0.0),
+        ("DoubleHenyeyGreenstein(g1: 0.8, g2: -0.3, f: 0.25)", 2, 0.8, -0.3, 0.25),
+        ("Schlick(k: 0.5)", 3, 0.5, 0.0, 0.0),
+        ("Rayleigh", 4, 0.0, 0.0, 0.0),
+        ("CornetteShanks(g: 0.9)", 5, 0.9, 0.0, 0.0),
+    ] {
+        let scene = with_camera(&format!("medium: (phase: {text})"));
+        let medium: layout::Medium = view(&scene, "medium");
+        assert_eq!((medium.phase, medium.g1, medium.g2, medium.weight), (kind, g1, g2, weight), "{text}");
+    }
+    // Any |g| below 1 is accepted; what single precision rounds to 1 keeps its width and stays below 1.
+    let scene = with_camera("medium: (phase: HenyeyGreenstein(g: 0.9999999999))");
+    let medium: layout::Medium = view(&scene, "medium");
+    assert!(medium.g1 < 1.0 && (medium.rho1 / 5e-11 - 1.0).abs() < 1e-4, "{medium:?}");
+}
+
+#[test]
+fn order_is_scale_rotate_translate() {
+    let object = "objects: [(mesh: Plane(size: (2, 2)), scale: 3, rotation: (axis: (0, 2, 0), angle: 90), translation: (10, 1, 0))]";
+    let vertices: Vec<layout::Vertex> = items(&with_camera(object), "vertices");
+    // The corner (−1, 0, 1): scaled (−3, 0, 3), turned by 90° about +y (z to x, x to −z) (3, 0, 3), moved (13, 1, 3).
+    let distance = glam::Vec3::from_array(vertices[0].position).distance(glam::Vec3::new(13.0, 1.0, 3.0));
+    assert!(distance < 1e-5, "{:?}", vertices[0]);
+}
+
+#[test]
+fn keys_move_what_they_should_and_nothing_else() {
+    let scene = read(
+        "(camera: (position: Keys([(0, (0, 1, 5)), (2, (0, 3, 5))]), look_at: (0, 1, 0)),
+          lights: [Point(position: (0, 0, 0), intensity: Keys([(1, (0, 0, 0)), (2, (8, 8, 8))]))],
+          objects: [(mesh: Box(size: (1, 1, 1))), (mesh: Plane(size: (1, 1)), translation: Keys([(0, (0, 0, 0)), (1, (0, 1, 0))]))])",
+    );
+    assert_eq!(scene.animated(), ["camera", "lights", "vertices"]);
+    let mut encoded = scene.encode(0.0, 1.0);
+    let before = encoded.clone();
+    assert_eq!(encoded.update(&scene, 1.5, 1.0), ["camera", "lights", "vertices"]);
+    assert_eq!(encoded, scene.encode(1.5, 1.0));
+    assert_ne!(encoded, before);
+    let camera: layout::Camera = *bytemuck::from_bytes(encoded.bytes("camera"));
+    assert_eq!(camera.position, [0.0, 2.5, 5.0]);
+    let light: layout::Light = bytemuck::pod_read_unaligned(&encoded.bytes("lights")[16..80]);
+    assert_eq!(light.intensity, [4.0; 3]);
+    // The box did not move.
+    assert_eq!(encoded.bytes("vertices")[16..16 + 24 * 32], before.bytes("vertices")[16..16 + 24 * 32]);
+    assert!(encoded.update(&scene, 1.5, 1.0).is_empty());
+    assert_eq!(encoded.update(&scene, 1.5, 2.0), ["camera"]);
+    assert_eq!(encoded.update(&scene, 0.0, 1.0), ["camera", "lights", "vertices"]);
+    assert_eq!(encoded, before);
+}
+
+#[test]
+fn overrides_replace_and_add() {
+    let text = format!(
+        "({CAMERA} lights: [Point(position: (0, 0, 0), intensity: (1, 1, 1))], objects: [(mesh: Sphere(radius: 1))])"
+    );
+    let overrides = [
+        ("medium.extinction", "(1, 2, 3)"),
+        ("medium.phase", "Schlick(k: 0.5)"),
+        ("medium.phase.k", "0.25"),
+        ("lights.0.intensity", "(9, 9, 9)"),
+        ("lights.0.intensity.1", "7"),
+        ("objects.0.material.diffuse", "(0.1, 0.2, 0.3)"),
+        ("objects.0.mesh.radius", "2"),
+        ("camera.vertical_fov", "90"),
+        ("camera.vertical_fov", "60"),
+    ];
+    let scene = read_with(&text, &overrides).unwrap_or_else(|e| panic!("{}", render_text(&e, false)));
+    let medium: layout::Medium = view(&scene, "medium");
+    assert_eq!((medium.extinction, medium.phase, medium.g1), ([1.0, 2.0, 3.0], 3, 0.25));
+    assert_eq!(items::<layout::Light>(&scene, "lights")[0].intensity, [9.0, 7.0, 9.0]);
+    assert_eq!(items::<layout::Material>(&scene, "materials")[0].diffuse, [0.1, 0.2, 0.3]);
+    assert!((scene.bounds(0.0).expect("a sphere").max.x - 2.0).abs() < 1e-3);
+    let camera: layout::Camera = view(&scene, "camera");
+    assert!((camera.up[1] - 30f32.to_radians().tan()).abs() < 1e-6);
+}
+
+#[test]
+fn mistakes_in_overrides_name_the_argument() {
+    let text = format!("({CAMERA} lights: [Point(position: (0, 0, 0), intensity: (1, 1, 1))], medium: (albedo: (2, 0, 0)))");
+    let told = |overrides: &[(&str, &str)]| {
+        let errors = read_with(&text, overrides).expect_err("there are mistakes");
+        let line = |d: &tyndall_document::Diagnostic| {
+            let place = match &d.place {
+                tyndall_document::Place::Argument(argument) => argument.clone(),
+                tyndall_document::Place::Text { source, span } => source.slice(*span).to_owned(),
+                tyndall_document::Place::File(name) => name.clone(),
+            };
+            (d.code.0, place, d.suggestion.clone())
+        };
+        errors.iter().map(line).collect::<Vec<_>>()
+    };
+    let albedo = ("out-of-range", "2".to_owned(), None);
+    assert_eq!(
+        told(&[("medium.extincton", "(1, 1, 1)")]),
+        [albedo.clone(), (
+            "unknown-field",
+            "--set scene.medium.extincton=(1, 1, 1)".to_owned(),
+            Some("did you mean `extinction`?".to_owned())
+        )]
+    );
+    assert_eq!(
+        told(&[("lights.3.intensity", "(1, 1, 1)")]),
+        [albedo.clone(), ("unknown-path", "--set scene.lights.3.intensity=(1, 1, 1)".to_owned(), None)]
+    );
+    assert_eq!(
+        told(&[("lights.0.intensity", "(1, -1, 1)"), ("medium.albedo", "(1, 1, 1)")]),
+        [("out-of-range", "--set scene.lights.0.intensity=(1, -1, 1)".to_owned(), None)]
+    );
+}
+
+#[test]
+fn scenes_of_the_repository() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../graphs/scenes");
+    let entries = std::fs::read_dir(folder).expect("graphs/scenes");
+    let mut count = 0;
+    for entry in entries {
+        let path = entry.expect("a folder entry").path();
+        if path.to_string_lossy().ends_with(".scene.ron") {
+            let (scene, warnings) = Scene::load(&path, &Overrides::new())
+                .unwrap_or_else(|errors| panic!("{}", render_text(&errors, false)));
+            assert!(warnings.is_empty(), "{}", render_text(&warnings, false));
+            assert!(!scene.lights.is_empty() && !scene.instances.is_empty());
+            count += 1;
+        }
+    }
+    assert!(count >= 2, "{count} scenes in graphs/scenes");
+}

@@ -1,0 +1,72 @@
+//! The Rust structs against the WGSL structs that shaders read.
+
+use std::collections::BTreeMap;
+use std::mem::{offset_of, size_of};
+
+use naga::{Module, TypeInner};
+use tyndall_scene::layout::{Background, Camera, Header, Light, Material, Medium, Object, Texture, Vertex};
+
+/// Offset of each member, and size, of each struct of the file.
+fn wgsl() -> BTreeMap<String, (Vec<(String, usize)>, usize)> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shaders/scene.wgsl");
+    let source = std::fs::read_to_string(path).expect("shaders/scene.wgsl");
+    let module: Module = naga::front::wgsl::parse_str(&source).expect("scene.wgsl is valid");
+    let mut structs = BTreeMap::new();
+    for (_, kind) in module.types.iter() {
+        if let (Some(name), TypeInner::Struct { members, span }) = (&kind.name, &kind.inner) {
+            let member = |m: &naga::StructMember| (m.name.clone().unwrap_or_default(), m.offset as usize);
+            structs.insert(name.clone(), (members.iter().map(member).collect(), *span as usize));
+        }
+    }
+    structs
+}
+
+macro_rules! same {
+    ($structs:expr, $kind:ident { $($field:ident),* }) => {
+        let expected: Vec<(String, usize)> =
+            vec![$((stringify!($field).to_owned(), offset_of!($kind, $field))),*];
+        let (members, size) = &$structs[stringify!($kind)];
+        assert_eq!(*members, expected, stringify!($kind));
+        assert_eq!(*size, size_of::<$kind>(), stringify!($kind));
+    };
+}
+
+#[test]
+fn structs_match_the_shader() {
+    let structs = wgsl();
+    same!(structs, Camera { position, padding, right, pad0, up, pad1, forward, pad2 });
+    same!(structs, Medium { extinction, phase, scattering, g1, g2, weight, rho1, rho2 });
+    same!(structs, Light { position, kind, intensity, radius, direction, exponent, cos_cutoff, pad0, pad1, pad2 });
+    same!(structs, Vertex { position, u, normal, v });
+    same!(structs, Object { material, casts_shadow, pad0, pad1 });
+    same!(structs, Material { diffuse, texture, specular, shininess });
+    same!(structs, Texture { offset, width, height, wrap });
+    let (members, size) = &structs["Background"];
+    assert_eq!((members.as_slice(), *size), ([("radiance".to_owned(), 0)].as_slice(), size_of::<Background>()));
+}
+
+#[test]
+fn lists_start_with_the_header() {
+    let structs = wgsl();
+    for name in ["Lights", "Vertices", "Triangles", "Objects", "Materials", "Textures"] {
+        let (members, _) = &structs[name];
+        let expected = [("count", 0), ("pad0", 4), ("pad1", 8), ("pad2", 12), ("items", size_of::<Header>())];
+        let expected: Vec<(String, usize)> = expected.map(|(n, o)| (n.to_owned(), o)).to_vec();
+        assert_eq!(*members, expected, "{name}");
+    }
+    assert_eq!(structs["Texels"].0, [("items".to_owned(), 0)]);
+}
+
+#[test]
+fn constants_match_the_shader() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shaders/scene.wgsl");
+    let source = std::fs::read_to_string(path).expect("shaders/scene.wgsl");
+    for constant in [
+        "ISOTROPIC: u32 = 0u", "HENYEY_GREENSTEIN: u32 = 1u", "DOUBLE_HENYEY_GREENSTEIN: u32 = 2u",
+        "SCHLICK: u32 = 3u", "RAYLEIGH: u32 = 4u", "CORNETTE_SHANKS: u32 = 5u", "POINT: u32 = 0u", "SPOT: u32 = 1u",
+        "DIRECTIONAL: u32 = 2u", "NO_TEXTURE: u32 = 0xffffffffu", "WRAP_REPEAT: u32 = 0u", "WRAP_CLAMP: u32 = 1u",
+        "WRAP_MIRROR: u32 = 2u",
+    ] {
+        assert!(source.contains(&format!("const {constant};")), "{constant}");
+    }
+}
