@@ -1,0 +1,109 @@
+//! Files that appear whole or not at all.
+//!
+//! What is written goes to a temporary file in the folder of the target, is flushed to the disk, and takes the target's
+//! name last. So a reader sees the old file or the new one, and a failure leaves the old one as it was.
+
+use std::fs::{File, Permissions};
+use std::io::{self, BufWriter, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use crate::{Error, Kind};
+
+/// What the function given to [`write_atomically`] writes to; it can be written and sought.
+pub type Writer<'a> = BufWriter<&'a File>;
+
+/// Writes the file `path` by `write`, whole or not at all.
+///
+/// Missing parent folders are made. A new file gets the usual permissions, an existing one keeps its own. A symbolic link
+/// keeps pointing at its target, which is replaced. A device or a pipe (`/dev/stdout`) is written to at the end.
+///
+/// # Errors
+/// If the path is a folder or may not be written (the user's fault), if the disk is full, or if `write` fails.
+pub fn write_atomically(path: &Path, write: impl FnOnce(&mut Writer<'_>) -> io::Result<()>) -> Result<(), Error> {
+    let failed = |error: &io::Error| Error::io(path, "cannot write", error);
+    match target(path)? {
+        Target::File { path: target, permissions } => {
+            let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+            std::fs::create_dir_all(folder).map_err(|error| failed(&error))?;
+            replace(&target, folder, permissions, write)
+        }
+        Target::Device => stream(path, write),
+    }
+    .map_err(|error| failed(&error))
+}
+
+/// Writes `bytes` as the file `path`, whole or not at all: see [`write_atomically`].
+///
+/// # Errors
+/// As [`write_atomically`].
+pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    write_atomically(path, |writer| io::Write::write_all(writer, bytes))
+}
+
+enum Target {
+    File { path: PathBuf, permissions: Option<Permissions> },
+    Device,
+}
+
+/// What stands at `path` now, links followed.
+fn target(path: &Path) -> Result<Target, Error> {
+    let refused = |what: &str| Err(Error::new(Kind::Usage, path, format!("cannot write: {what}")));
+    // Its name is that of a file wherever the shell has sent it, and must not be replaced there.
+    if path.starts_with("/dev") {
+        return Ok(Target::Device);
+    }
+    match std::fs::metadata(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => match path.file_name() {
+            Some(_) => Ok(Target::File { path: path.to_owned(), permissions: None }),
+            None => refused("it is no file name"),
+        },
+        Err(error) => Err(Error::io(path, "cannot write", &error)),
+        Ok(found) if found.is_dir() => refused("it is a folder"),
+        Ok(found) if !found.is_file() => Ok(Target::Device),
+        Ok(found) if found.permissions().readonly() => refused("the file is read-only"),
+        Ok(found) => {
+            let path = std::fs::canonicalize(path).map_err(|error| Error::io(path, "cannot write", &error))?;
+            Ok(Target::File { path, permissions: Some(found.permissions()) })
+        }
+    }
+}
+
+fn replace(
+    target: &Path,
+    folder: &Path,
+    permissions: Option<Permissions>,
+    write: impl FnOnce(&mut Writer<'_>) -> io::Result<()>,
+) -> io::Result<()> {
+    let temporary = temporary_file(folder)?;
+    fill(temporary.as_file(), write)?;
+    if let Some(permissions) = permissions {
+        temporary.as_file().set_permissions(permissions)?;
+    }
+    temporary.as_file().sync_data()?;
+    temporary.persist(target).map(drop).map_err(|error| error.error)
+}
+
+fn temporary_file(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".tyndall-").suffix(".part");
+    // Without this the file would be the owner's alone; the process's mask still applies.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder)
+}
+
+fn stream(path: &Path, write: impl FnOnce(&mut Writer<'_>) -> io::Result<()>) -> io::Result<()> {
+    let mut whole = tempfile::tempfile()?;
+    fill(&whole, write)?;
+    whole.seek(SeekFrom::Start(0))?;
+    let mut device = File::options().write(true).open(path)?;
+    io::copy(&mut whole, &mut device).map(drop)
+}
+
+fn fill(file: &File, write: impl FnOnce(&mut Writer<'_>) -> io::Result<()>) -> io::Result<()> {
+    let mut writer = BufWriter::with_capacity(1 << 16, file);
+    write(&mut writer)?;
+    io::Write::flush(&mut writer)
+}

@@ -1,0 +1,137 @@
+//! OpenEXR in: R, G, B (A); Y; X, Y (Z); or a single channel of any name, of half, float or whole numbers.
+//!
+//! B44 and DWA compression are not read. Sizes are checked against the file's length before anything of that size is allocated.
+
+use std::io::Cursor;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use exr::block::UncompressedBlock;
+use exr::block::reader::ChunksReader;
+use exr::compression::Compression;
+use exr::meta::BlockDescription;
+use exr::meta::attribute::SampleType;
+use exr::meta::header::Header;
+use half::f16;
+
+use crate::{Image, limits};
+
+/// Largest side of a tile, pixels: those of today's files have 512 at most.
+const LARGEST_TILE: usize = 8_192;
+
+/// The first layer of the file whose channels are understood.
+pub(crate) fn decode(bytes: &[u8]) -> Result<Image, String> {
+    // The reader has assertions of its own about what a file says; one that fails is the file's mistake.
+    catch_unwind(AssertUnwindSafe(|| decode_checked(bytes))).unwrap_or_else(|_| Err("not a sound EXR file".to_owned()))
+}
+
+fn decode_checked(bytes: &[u8]) -> Result<Image, String> {
+    let reader = exr::block::read(Cursor::new(bytes), false).map_err(said)?;
+    let (layer, sources) = choose_layer(reader.headers())?;
+    for header in reader.headers() {
+        check_size(header, bytes.len())?;
+    }
+    let header = &reader.headers()[layer];
+    if !is_safe(header.compression) {
+        return Err(format!("EXR files with {} are not read", header.compression));
+    }
+    let (width, height) = (header.layer_size.width(), header.layer_size.height());
+    let data = vec![0.0; width * height * sources.len()];
+    let mut image = Image::new(width as u32, height as u32, sources.len() as u32, data);
+
+    let first_level = |block: exr::block::BlockIndex| block.layer == layer && block.level == exr::math::Vec2(0, 0);
+    let chunks = reader.filter_chunks(false, |_, _, block| first_level(block)).map_err(said)?;
+    let mut filled = 0;
+    chunks
+        .decompress_sequential(false, |meta, block| {
+            if first_level(block.index) {
+                filled += copy_block(&meta.headers[layer], &block, &sources, &mut image);
+            }
+            Ok(())
+        })
+        .map_err(said)?;
+    match filled == image.data.len() {
+        true => Ok(image),
+        false => Err("parts of the picture are missing".to_owned()),
+    }
+}
+
+/// Whether the unpacker of the `exr` crate (1.74) withstands hostile data. That of B44 panics where arithmetic wraps around, and that
+/// of DWA allocates whatever the data say.
+fn is_safe(compression: Compression) -> bool {
+    use Compression as C;
+    matches!(compression, C::Uncompressed | C::RLE | C::ZIP1 | C::ZIP16 | C::PIZ | C::PXR24)
+}
+
+/// The number of the layer, and which of its channels make the image, in order.
+fn choose_layer(headers: &[Header]) -> Result<(usize, Vec<usize>), String> {
+    let found = headers.iter().position(|header| !header.deep && sources(header).is_some());
+    let layer = found.ok_or_else(|| {
+        let names =
+            headers.iter().flat_map(|header| header.channels.list.iter().map(|channel| channel.name.to_string()));
+        let names: Vec<String> = names.take(16).collect();
+        format!("no layer with the channels R, G, B (A), or X, Y (Z), or Y; it has {}", names.join(", "))
+    })?;
+    Ok((layer, sources(&headers[layer]).unwrap_or_default()))
+}
+
+fn sources(header: &Header) -> Option<Vec<usize>> {
+    let list = &header.channels.list;
+    let of = |name: &str| list.iter().position(|channel| channel.name.eq(name));
+    let all = |names: &[&str]| names.iter().map(|name| of(name)).collect::<Option<Vec<usize>>>();
+    let known = [&["R", "G", "B", "A"][..], &["R", "G", "B"], &["X", "Y", "Z"], &["X", "Y"], &["Y"]];
+    let found = known.iter().find_map(|names| all(names)).or((list.len() == 1).then(|| vec![0]));
+    found.filter(|found| found.iter().all(|&index| list[index].sampling.0 == 1 && list[index].sampling.1 == 1))
+}
+
+fn check_size(header: &Header, file_bytes: usize) -> Result<(), String> {
+    let size = (header.layer_size.width() as u64, header.layer_size.height() as u64);
+    limits::count(size, header.channels.list.len() as u64, 2, file_bytes)?;
+    if header.channels.list.iter().any(|channel| channel.sampling.0 != 1 || channel.sampling.1 != 1) {
+        return Err("subsampled channels are not read".to_owned());
+    }
+    match header.blocks {
+        BlockDescription::Tiles(tiles) if tiles.tile_size.0.max(tiles.tile_size.1) > LARGEST_TILE => {
+            Err(format!("tiles of {}x{} pixels are not read", tiles.tile_size.0, tiles.tile_size.1))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Copies the lines of a block into the image; the number of samples that were copied.
+fn copy_block(header: &Header, block: &UncompressedBlock, sources: &[usize], image: &mut Image) -> usize {
+    let (width, channels) = (image.width as usize, sources.len());
+    let mut copied = 0;
+    for line in block.lines(&header.channels) {
+        let Some(target) = sources.iter().position(|&source| source == line.location.channel) else { continue };
+        let start = (line.location.position.1 * width + line.location.position.0) * channels + target;
+        let Some(row) = image.data.get_mut(start..) else { continue };
+        let row = row.iter_mut().step_by(channels).take(line.location.sample_count);
+        let kind = header.channels.list[line.location.channel].sample_type;
+        copied += copy_line(kind, line.value, row);
+    }
+    copied
+}
+
+fn copy_line<'a>(kind: SampleType, bytes: &[u8], row: impl Iterator<Item = &'a mut f32>) -> usize {
+    // The reader has turned the bytes to the machine's own order.
+    let four = || bytes.as_chunks::<4>().0.iter().copied();
+    match kind {
+        SampleType::F32 => fill(row, four().map(f32::from_ne_bytes)),
+        SampleType::U32 => fill(row, four().map(|bytes| u32::from_ne_bytes(bytes) as f32)),
+        SampleType::F16 => fill(row, bytes.as_chunks::<2>().0.iter().map(|&two| f16::from_ne_bytes(two).to_f32())),
+    }
+}
+
+fn fill<'a>(row: impl Iterator<Item = &'a mut f32>, samples: impl Iterator<Item = f32>) -> usize {
+    row.zip(samples).map(|(target, sample)| *target = sample).count()
+}
+
+fn said(error: exr::error::Error) -> String {
+    use exr::error::Error as E;
+    match error {
+        E::NotSupported(what) => format!("this kind of EXR file is not read: {what}"),
+        E::Invalid(what) => format!("not a sound EXR file: {what}"),
+        E::Io(error) => format!("not a sound EXR file: {error}"),
+        E::Aborted => "not a sound EXR file".to_owned(),
+    }
+}

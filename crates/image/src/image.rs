@@ -1,0 +1,123 @@
+//! An image in memory, and what its channels mean.
+
+use std::path::Path;
+
+use crate::{Error, Kind};
+
+/// Pixels as linear 32-bit floats: a picture, the layers of an array, or the slices of a 3D texture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows; row 0 is the top.
+    pub height: u32,
+    /// Layers of an array or slices of a 3D texture; 1 for a picture.
+    pub layers: u32,
+    /// Numbers per pixel, 1 to 4.
+    pub channels: u32,
+    /// Layer by layer, row by row, pixel by pixel: `width * height * layers * channels` numbers.
+    pub data: Vec<f32>,
+}
+
+/// What the channels of an image mean; it decides their names in a file and whether they are encoded for the eye.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Meaning {
+    /// Linear colour, with or without alpha. In `.exr` R, G, B, A (alpha 1 where the image has none).
+    Color,
+    /// One number per pixel: the first channel. In `.exr` `Y`.
+    Scalar,
+    /// A direction or position: the first three channels. In `.exr` X, Y, Z.
+    Vector,
+    /// Numbers of the pass's own: 1 channel is Y, 2 are X, Y, 3 are X, Y, Z and 4 are R, G, B, A in `.exr`.
+    Data,
+    /// Colour that is already encoded as sRGB, for a screen. `.png` takes it as it is, `.exr` and `.hdr` get it linear.
+    Display,
+}
+
+impl Image {
+    /// A picture of one layer.
+    ///
+    /// # Panics
+    /// If `data` does not hold `width * height * channels` numbers, or `channels` is not 1 to 4: a bug of the caller.
+    pub fn new(width: u32, height: u32, channels: u32, data: Vec<f32>) -> Self {
+        let image = Self { width, height, layers: 1, channels, data };
+        assert!(image.fits(), "{} numbers for {width}x{height} pixels of {channels} channels", image.data.len());
+        image
+    }
+
+    /// A picture of one layer in which every pixel is `pixel` (1 to 4 numbers).
+    pub fn filled(width: u32, height: u32, pixel: &[f32]) -> Self {
+        let count = width as usize * height as usize;
+        Self::new(width, height, pixel.len() as u32, pixel.repeat(count))
+    }
+
+    /// The numbers of pixel (`x`, `y`) of the first layer, or `None` outside.
+    pub fn pixel(&self, x: u32, y: u32) -> Option<&[f32]> {
+        self.pixel_in_layer(0, x, y)
+    }
+
+    /// The numbers of pixel (`x`, `y`) of `layer`, or `None` outside.
+    pub fn pixel_in_layer(&self, layer: u32, x: u32, y: u32) -> Option<&[f32]> {
+        if x >= self.width || y >= self.height || layer >= self.layers {
+            return None;
+        }
+        let row = layer as usize * self.height as usize + y as usize;
+        let start = (row * self.width as usize + x as usize) * self.channels as usize;
+        self.data.get(start..start + self.channels as usize)
+    }
+
+    /// Number of pixels of all layers.
+    pub fn pixel_count(&self) -> usize {
+        self.width as usize * self.height as usize * self.layers as usize
+    }
+
+    /// The same image with only its first `count` channels (all of them if it has no more).
+    pub fn first_channels(&self, count: u32) -> Self {
+        let kept = count.clamp(1, self.channels);
+        let data = match kept == self.channels {
+            true => self.data.clone(),
+            false => {
+                let pixels = self.data.chunks_exact(self.channels as usize);
+                pixels.flat_map(|pixel| &pixel[..kept as usize]).copied().collect()
+            }
+        };
+        Self { channels: kept, data, ..*self }
+    }
+
+    fn fits(&self) -> bool {
+        (1..=4).contains(&self.channels) && self.pixel_count() * self.channels as usize == self.data.len()
+    }
+
+    /// That the image has pixels, and as many numbers as its size says.
+    pub(crate) fn check(&self, path: &Path) -> Result<(), Error> {
+        if self.fits() && !self.data.is_empty() {
+            return Ok(());
+        }
+        let Self { width, height, layers, channels, .. } = self;
+        let count = self.data.len();
+        let message = format!("an image of {width}x{height}x{layers} with {channels} channels and {count} numbers");
+        Err(Error::new(Kind::Usage, path, message))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_are_row_by_row_from_the_top() {
+        let image = Image::new(2, 2, 2, (0..8).map(|n| n as f32).collect());
+        assert_eq!(image.pixel(1, 0), Some(&[2.0, 3.0][..]));
+        assert_eq!(image.pixel(0, 1), Some(&[4.0, 5.0][..]));
+        assert_eq!(image.pixel(2, 0), None);
+        assert_eq!(image.first_channels(1).data, [0.0, 2.0, 4.0, 6.0]);
+    }
+
+    #[test]
+    fn an_image_whose_data_does_not_fit_is_refused() {
+        let image = Image { width: 2, height: 2, layers: 1, channels: 1, data: vec![0.0; 3] };
+        assert!(image.check(Path::new("a.exr")).is_err());
+        let empty = Image { width: 0, height: 2, layers: 1, channels: 1, data: vec![] };
+        assert!(empty.check(Path::new("a.exr")).is_err());
+    }
+}

@@ -1,0 +1,83 @@
+//! Images in memory and in files, and numbers that compare them.
+//!
+//! In memory an image is linear `f32` ([`Image`]); what its channels mean ([`Meaning`]) decides how a file names and
+//! encodes them. [`write()`] and [`read()`] choose the format by the suffix: `.exr` (32-bit float, linear), `.png` (8-bit
+//! sRGB), `.hdr` (RGBE) and `.npy` (float32, any shape). A file appears whole or not at all ([`write_atomically`]).
+//!
+//! Invariants: row 0 is the top; a reader never panics and never allocates much more than the file can fill;
+//! every error names its file.
+//!
+//! Not supported: deep, subsampled or multi-view EXR, B44 and DWA compression, mip levels other than the first, ICC profiles of PNG files.
+
+mod atomic;
+mod error;
+mod exr_read;
+mod exr_write;
+mod frames;
+mod hdr;
+mod image;
+mod kind;
+mod limits;
+pub mod metrics;
+mod npy;
+mod png;
+mod srgb;
+
+pub use atomic::{Writer, write_atomically, write_bytes};
+pub use error::{Error, Kind};
+pub use frames::{frame_path, has_frame_number};
+pub use image::{Image, Meaning};
+pub use kind::{FileKind, supported};
+pub use npy::{Array, read_array, write_array};
+pub use srgb::{linear_from_srgb, srgb_from_linear};
+
+use std::path::Path;
+
+/// Writes `image` to `path`, in the format of the path's suffix, whole or not at all.
+///
+/// Missing parent folders are made. What the channels mean decides their names and encoding: see [`Meaning`].
+///
+/// # Errors
+/// An unknown suffix, an image whose `data` does not fit its size, more than one layer in a format that has none
+/// (all but `.npy`), and whatever the file system refuses.
+pub fn write(path: &Path, image: &Image, meaning: Meaning) -> Result<(), Error> {
+    let kind = supported(path)?;
+    image.check(path)?;
+    if kind != FileKind::Npy && image.layers != 1 {
+        let message = format!("{} layers do not fit into one picture; write `.npy` instead", image.layers);
+        return Err(Error::new(Kind::Usage, path, message));
+    }
+    match kind {
+        FileKind::Exr => exr_write::write(path, image, meaning),
+        FileKind::Png => png::write(path, image, meaning),
+        FileKind::Hdr => hdr::write(path, image, meaning),
+        FileKind::Npy => npy::write_image(path, image, meaning),
+    }
+}
+
+/// Reads the image at `path`, in the format of the path's suffix, as linear numbers.
+///
+/// `.png` is taken as sRGB (alpha as linear); the others are taken as they stand. An `.npy` file must have the shape (height, width),
+/// (height, width, channels) or (layers, height, width, channels), with 1 to 4 channels; [`read_array`] takes any.
+///
+/// # Errors
+/// An unknown suffix, a file that cannot be read, and content that is broken, truncated or larger than is taken.
+pub fn read(path: &Path) -> Result<Image, Error> {
+    let kind = supported(path)?;
+    let bytes = limits::read_file(path)?;
+    decode(path, kind, &bytes)
+}
+
+/// Decodes `bytes` as a file of `kind`; `path` only names it in errors.
+///
+/// # Errors
+/// Content that is broken, truncated or larger than is taken.
+pub fn decode(path: &Path, kind: FileKind, bytes: &[u8]) -> Result<Image, Error> {
+    let image = match kind {
+        FileKind::Exr => exr_read::decode(bytes),
+        FileKind::Png => png::decode(bytes),
+        FileKind::Hdr => hdr::decode(bytes),
+        FileKind::Npy => npy::decode_image(bytes),
+    };
+    image.map_err(|message| Error::new(Kind::Input, path, message))
+}
