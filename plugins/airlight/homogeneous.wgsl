@@ -1,0 +1,27 @@
+// Airlight of every light of the scene: see shaders/airlight.wgsl.
+#import scene
+#import ray
+#import airlight
+
+override nodes: u32 = 12;
+
+var<uniform> camera: Camera;
+var<uniform> medium: Medium;
+var<storage, read> lights: Lights;
+var depth: texture_2d<f32>;
+var radiance: texture_storage_2d<rgba32float, write>;
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let size = textureDimensions(radiance);
+    if any(id.xy >= size) {
+        return;
+    }
+    let ray = ray_of_pixel(camera, id.xy, size);
+    let way = textureLoad(depth, id.xy, 0).x;
+    var sum = vec3<f32>(0.0);
+    for (var i = 0u; i < lights.count; i++) {
+        sum += airlight(lights.items[i], medium, ray, way, nodes);
+    }
+    textureStore(radiance, id.xy, vec4<f32>(sum, 1.0));
+}

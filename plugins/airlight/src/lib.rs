@@ -1,0 +1,8 @@
+//! The plugin `airlight`: light that a medium scatters once toward the eye.
+
+use tyndall_plugin::{Plugin, folder};
+
+/// The plugin.
+pub fn plugin() -> Plugin {
+    Plugin::new("airlight", folder!("airlight": "plugin.ron", "homogeneous.wgsl"))
+}

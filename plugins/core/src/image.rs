@@ -1,0 +1,107 @@
+//! `core.image`: a picture from a file.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::Path;
+
+use tyndall_image::Image;
+use tyndall_plugin::descriptor::{
+    Class, Dimension, Disabled, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role, SizeRule,
+};
+use tyndall_plugin::{GpuError, Program, Recorder, Resource, RustPass, Setup};
+
+/// The pass.
+pub(crate) fn pass() -> RustPass {
+    RustPass {
+        descriptor: descriptor(),
+        shaders: Vec::new(),
+        make: Box::new(|setup, _| Ok(Box::new(Picture::new(setup)?))),
+    }
+}
+
+fn descriptor() -> PassDescriptor {
+    PassDescriptor {
+        name: "core.image".to_owned(),
+        about: "A picture from a file: EXR, HDR, PNG (decoded to linear) or NPY. It must be as large as the frame; \
+                `core.resize` changes sizes."
+            .to_owned(),
+        source: String::new(),
+        ports: vec![PortDescriptor {
+            name: "color".to_owned(),
+            about: "The picture, linear, alpha 1 where the file has none".to_owned(),
+            unit: String::new(),
+            role: Role::Output { disabled: Disabled::Constant([0.0, 0.0, 0.0, 1.0]) },
+            kind: PortKind::Texture {
+                dimension: Dimension::D2,
+                class: Class::Color,
+                format: Some(Format::Rgba32Float),
+                filtered: false,
+            },
+            size: Some(SizeRule::frame(1.0)),
+            unordered: false,
+        }],
+        params: vec![ParamDescriptor {
+            name: "file".to_owned(),
+            about: "Path of the picture, from the graph file".to_owned(),
+            unit: String::new(),
+            default: ParamValue::File(String::new()),
+            range: None,
+            choices: Vec::new(),
+            fixed: true,
+        }],
+        scene: Vec::new(),
+        side_effect: false,
+        revision: 1,
+    }
+}
+
+struct Picture {
+    texels: Vec<u8>,
+    fingerprint: u64,
+}
+
+impl Picture {
+    fn new(setup: &Setup<'_>) -> Result<Self, GpuError> {
+        let Some(ParamValue::File(path)) = setup.param("file") else {
+            return Err(setup.pass.refuse("its `file` is no path"));
+        };
+        let input = |reason: String| GpuError::Input { pass: setup.pass.name().to_owned(), reason };
+        let image = tyndall_image::read(Path::new(path)).map_err(|error| input(error.to_string()))?;
+        let size = match setup.pass.resource(setup.pass.port("color")?) {
+            Some(Resource::Texture { width, height, .. }) => (*width, *height),
+            _ => return Err(setup.pass.refuse("its output is no texture")),
+        };
+        if (image.width, image.height) != size {
+            return Err(input(format!(
+                "{path} is {}x{}, and the frame is {}x{}: render with --size {}x{}",
+                image.width, image.height, size.0, size.1, image.width, image.height
+            )));
+        }
+        let texels = rgba(&image);
+        let mut hasher = DefaultHasher::new();
+        texels.hash(&mut hasher);
+        Ok(Self { texels, fingerprint: hasher.finish() })
+    }
+}
+
+/// Four channels a texel: one is spread over the colours, a missing alpha is 1.
+fn rgba(image: &Image) -> Vec<u8> {
+    let channels = image.channels as usize;
+    let texel = |texel: &[f32]| match *texel {
+        [y] => [y, y, y, 1.0],
+        [x, y] => [x, y, 0.0, 1.0],
+        [r, g, b] => [r, g, b, 1.0],
+        [r, g, b, a, ..] => [r, g, b, a],
+        [] => [0.0, 0.0, 0.0, 1.0],
+    };
+    image.data.chunks_exact(channels.max(1)).flat_map(texel).flat_map(f32::to_le_bytes).collect()
+}
+
+impl Program for Picture {
+    fn record(&mut self, recorder: &mut Recorder<'_>) -> Result<(), GpuError> {
+        recorder.write_texture(0, &self.texels)
+    }
+
+    fn fingerprint(&self) -> u64 {
+        self.fingerprint
+    }
+}

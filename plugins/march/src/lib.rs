@@ -1,0 +1,8 @@
+//! The plugin `march`: the same light by brute force, to compare with.
+
+use tyndall_plugin::{Plugin, folder};
+
+/// The plugin.
+pub fn plugin() -> Plugin {
+    Plugin::new("march", folder!("march": "plugin.ron", "airlight.wgsl"))
+}

@@ -1,0 +1,8 @@
+//! The plugin `surface_radiance`: light that surfaces reflect toward the eye through a medium.
+
+use tyndall_plugin::{Plugin, folder};
+
+/// The plugin.
+pub fn plugin() -> Plugin {
+    Plugin::new("surface_radiance", folder!("surface_radiance": "plugin.ron", "phong.wgsl"))
+}

@@ -1,0 +1,28 @@
+//! WGSL that plugins share, as text, and beside each file its twin in double precision: the Rust module of the same
+//! stem computes the same thing by the plainest way that reaches at least nine digits, for tests to compare with.
+//!
+//! Conventions are those of every scene: metres, right-handed, phase functions that integrate to 1 over the sphere,
+//! `g > 0` forward, extinction and scattering in 1/m, radiance in W/(sr m²).
+
+pub mod airlight;
+pub mod colour;
+pub mod cone;
+pub mod lights;
+pub mod medium;
+pub mod phase;
+pub mod quadrature;
+pub mod ray;
+pub mod scene;
+
+/// Every shared module: its name, as in `#import name`, and its text.
+pub const MODULES: &[(&str, &str)] = &[
+    ("airlight", include_str!("airlight.wgsl")),
+    ("colour", include_str!("colour.wgsl")),
+    ("cone", include_str!("cone.wgsl")),
+    ("lights", include_str!("lights.wgsl")),
+    ("medium", include_str!("medium.wgsl")),
+    ("phase", include_str!("phase.wgsl")),
+    ("quadrature", include_str!("quadrature.wgsl")),
+    ("ray", include_str!("ray.wgsl")),
+    ("scene", include_str!("scene.wgsl")),
+];

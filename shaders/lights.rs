@@ -1,0 +1,62 @@
+//! What reaches a point from a light, without what the medium takes: twin of `lights.wgsl`.
+
+use crate::cone::spot_falloff;
+use crate::scene::Light;
+use glam::DVec3;
+
+/// Light at a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Incident {
+    /// Unit vector.
+    pub to_light: DVec3,
+    /// W/m² on a surface that faces the light, before extinction.
+    pub irradiance: DVec3,
+    /// Metres through the medium; of a directional light 0: its irradiance reaches every point as it is.
+    pub way: f64,
+}
+
+/// What a light sends to a point: `I/d²` of a point or spot light, d floored at the light's radius.
+pub fn incident(light: &Light, position: DVec3) -> Incident {
+    let at = |light_position: DVec3, intensity: DVec3, radius: f64| {
+        let away = light_position - position;
+        let d = away.length().max(radius);
+        Incident { to_light: away / d, irradiance: intensity / (d * d), way: d }
+    };
+    match *light {
+        Light::Directional { direction, irradiance } => Incident { to_light: -direction, irradiance, way: 0.0 },
+        Light::Point { position, intensity, radius } => at(position, intensity, radius),
+        Light::Spot { position, intensity, radius, direction, exponent, cutoff } => {
+            let incident = at(position, intensity, radius);
+            let falloff = spot_falloff(-direction.dot(incident.to_light), exponent, cutoff);
+            Incident { irradiance: incident.irradiance * falloff, ..incident }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn falls_with_the_square_of_the_distance() {
+        let light = Light::Point { position: DVec3::Y * 4.0, intensity: DVec3::splat(32.0), radius: 0.0 };
+        let incident = incident(&light, DVec3::ZERO);
+        assert_eq!(incident.to_light, DVec3::Y);
+        assert_eq!(incident.irradiance, DVec3::splat(2.0));
+        assert_eq!(incident.way, 4.0);
+    }
+
+    #[test]
+    fn a_spot_shines_along_its_direction() {
+        let spot = |direction| Light::Spot {
+            position: DVec3::Y * 2.0,
+            intensity: DVec3::splat(4.0),
+            radius: 0.0,
+            direction,
+            exponent: 2.0,
+            cutoff: 30.0,
+        };
+        assert_eq!(incident(&spot(DVec3::NEG_Y), DVec3::ZERO).irradiance, DVec3::ONE);
+        assert_eq!(incident(&spot(DVec3::Y), DVec3::ZERO).irradiance, DVec3::ZERO);
+    }
+}

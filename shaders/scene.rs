@@ -1,0 +1,96 @@
+//! The part of a scene that light scattering needs, in double precision: twin of `scene.wgsl`.
+
+use glam::DVec3;
+
+/// A pinhole camera: twin of `Camera`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// The eye, m.
+    pub position: DVec3,
+    /// To the right, scaled by the tangent of half the horizontal field of view.
+    pub right: DVec3,
+    /// Up, scaled by the tangent of half the vertical field of view.
+    pub up: DVec3,
+    /// Unit vector.
+    pub forward: DVec3,
+}
+
+/// A phase function: how a scattering event spreads light over directions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Phase {
+    /// The same everywhere, 1/(4π).
+    Isotropic,
+    /// Henyey and Greenstein 1941.
+    HenyeyGreenstein {
+        /// Mean cosine, above 0 forward.
+        g: f64,
+    },
+    /// Two Henyey-Greenstein lobes.
+    DoubleHenyeyGreenstein {
+        /// Mean cosine of the first.
+        g1: f64,
+        /// Mean cosine of the second.
+        g2: f64,
+        /// Weight of the second, 0..1.
+        f: f64,
+    },
+    /// Blasi, Le Saëc and Schlick 1993.
+    Schlick {
+        /// Above 0 forward.
+        k: f64,
+    },
+    /// Molecules.
+    Rayleigh,
+    /// Cornette and Shanks 1992.
+    CornetteShanks {
+        /// Their g, which is not the mean cosine.
+        g: f64,
+    },
+}
+
+/// A homogeneous medium that fills space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Medium {
+    /// Extinction coefficient σ_t of each channel, 1/m.
+    pub extinction: DVec3,
+    /// Single-scattering albedo σ_s/σ_t of each channel.
+    pub albedo: DVec3,
+    /// Phase function.
+    pub phase: Phase,
+}
+
+/// A light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Light {
+    /// Shines alike in all directions.
+    Point {
+        /// m.
+        position: DVec3,
+        /// W/sr.
+        intensity: DVec3,
+        /// Floors the distance between light and ray, m.
+        radius: f64,
+    },
+    /// Shines in a cone.
+    Spot {
+        /// m.
+        position: DVec3,
+        /// W/sr, on the axis.
+        intensity: DVec3,
+        /// Floors the distance between light and ray, m.
+        radius: f64,
+        /// Unit vector, the way the light travels.
+        direction: DVec3,
+        /// N of cosᴺ.
+        exponent: f64,
+        /// Half-angle of the cone, degrees, below 180.
+        cutoff: f64,
+    },
+    /// Comes from one direction, everywhere.
+    Directional {
+        /// Unit vector, the way the light travels.
+        direction: DVec3,
+        /// W/m².
+        irradiance: DVec3,
+    },
+}

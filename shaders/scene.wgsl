@@ -1,0 +1,157 @@
+// Scene data as passes see it: one buffer each, encoded on the CPU by the scene crate, which a test holds against the
+// member offsets of this file.
+//
+// World space is right-handed with +y up, in metres; colours are linear RGB. A pass declares what it reads by name:
+//
+//     var<uniform> camera: Camera;            var<storage, read> vertices: Vertices;
+//     var<uniform> medium: Medium;            var<storage, read> triangles: Triangles;
+//     var<uniform> background: Background;    var<storage, read> objects: Objects;
+//     var<storage, read> lights: Lights;      var<storage, read> materials: Materials;
+//     var<storage, read> texels: Texels;      var<storage, read> textures: Textures;
+//
+// A list is a count, padding to 16 bytes, and at least one element, zeroed where the list is empty.
+
+// The ray of a point of the image: normalize(forward + x * right + y * up), x and y from -1 to 1, x to the right, y up.
+struct Camera {
+    position: vec3<f32>,        // m
+    padding: f32,
+    right: vec3<f32>,           // unit vector times the tangent of half the horizontal field of view
+    pad0: f32,
+    up: vec3<f32>,              // unit vector times the tangent of half the vertical field of view
+    pad1: f32,
+    forward: vec3<f32>,         // unit vector
+    pad2: f32,
+}
+
+// Values of Medium.phase.
+const ISOTROPIC: u32 = 0u;
+const HENYEY_GREENSTEIN: u32 = 1u;
+const DOUBLE_HENYEY_GREENSTEIN: u32 = 2u;
+const SCHLICK: u32 = 3u;
+const RAYLEIGH: u32 = 4u;
+const CORNETTE_SHANKS: u32 = 5u;
+
+// A homogeneous medium that fills space; extinction 0 is none.
+struct Medium {
+    extinction: vec3<f32>,      // sigma_t, 1/m
+    phase: u32,                 // which phase function
+    scattering: vec3<f32>,      // sigma_s = albedo * sigma_t, 1/m
+    g1: f32,                    // g, k of Schlick, or g1; above 0 forward
+    g2: f32,                    // g2 of the double Henyey-Greenstein
+    weight: f32,                // f, the weight of g2, 0..1
+    rho1: f32,                  // width of the (first) lobe, worked out in double precision, as 1 - g is lost in f32:
+                                // (1-g)/(1+g); Schlick sqrt((1-k)/(1+k)); isotropic and Rayleigh 1
+    rho2: f32,                  // the same of the second lobe: (1-g2)/(1+g2); 1 where there is none
+}
+
+// What a ray that meets nothing sees behind the medium.
+struct Background {
+    radiance: vec3<f32>,        // W/(sr m^2)
+}
+
+// Values of Light.kind.
+const POINT: u32 = 0u;
+const SPOT: u32 = 1u;
+const DIRECTIONAL: u32 = 2u;
+
+struct Light {
+    position: vec3<f32>,        // m; Directional: unused
+    kind: u32,
+    intensity: vec3<f32>,       // W/sr, of a spot on its axis; Directional: irradiance, W/m^2
+    radius: f32,                // m; floors h, the distance of the light from a ray
+    direction: vec3<f32>,       // unit vector, the way the light travels; Point: unused
+    exponent: f32,              // N of a spot's cos^N
+    cos_cutoff: f32,            // cosine of a spot's half-angle
+    pad0: f32,
+    pad1: f32,
+    pad2: f32,
+}
+
+struct Lights {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<Light>,
+}
+
+struct Vertex {
+    position: vec3<f32>,        // m
+    u: f32,
+    normal: vec3<f32>,          // unit vector
+    v: f32,
+}
+
+struct Vertices {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<Vertex>,
+}
+
+// Each element: three indices into the vertices, then the index of the object.
+struct Triangles {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<vec4<u32>>,
+}
+
+struct Object {
+    material: u32,              // index into the materials
+    casts_shadow: u32,          // 0 or 1
+    pad0: u32,
+    pad1: u32,
+}
+
+struct Objects {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<Object>,
+}
+
+const NO_TEXTURE: u32 = 0xffffffffu;
+
+struct Material {
+    diffuse: vec3<f32>,         // Lambert reflectance rho; the BRDF is rho/pi
+    texture: u32,               // index into the textures, its colour multiplies diffuse; NO_TEXTURE for none
+    specular: vec3<f32>,        // k_s of the Phong lobe
+    shininess: f32,             // n of the Phong lobe
+}
+
+struct Materials {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<Material>,
+}
+
+// Values of two bits of Texture.wrap: what a coordinate outside 0..1 reads.
+const WRAP_REPEAT: u32 = 0u;
+const WRAP_CLAMP: u32 = 1u;
+const WRAP_MIRROR: u32 = 2u;
+
+struct Texture {
+    offset: u32,                // of its first texel in the texels
+    width: u32,
+    height: u32,
+    wrap: u32,                  // a WRAP value for u in bits 0 and 1, for v in bits 2 and 3
+}
+
+struct Textures {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<Texture>,
+}
+
+// RGBA, 8 bits each, the first in the lowest bits, sRGB.
+struct Texels {
+    items: array<u32>,
+}
