@@ -1,0 +1,240 @@
+//! The command line, as `contract` states it.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Render graphs for light scattering: stills and sequences from graph files, pass by pass.
+#[derive(Debug, Parser)]
+#[command(name = "tyndall", version, propagate_version = true)]
+pub(crate) struct Arguments {
+    /// A folder with plugins (or a plugin's folder); may be given more than once. TYNDALL_PLUGIN_PATH adds more.
+    #[arg(long, global = true, value_name = "DIR")]
+    pub plugin_path: Vec<PathBuf>,
+    #[command(subcommand)]
+    pub verb: Verb,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Verb {
+    /// Run a graph without a window and write its outputs
+    Render(Render),
+    /// Find every mistake of graph files, without a GPU
+    Check(Check),
+    /// Show the scheduled graph: order, culled passes, resources, lifetimes, what shares memory
+    Show(Show),
+    /// Say why a pass is ordered or culled, why a port has its size, format and storage
+    Explain(Explain),
+    /// List every pass of every plugin, or document one
+    Passes(Passes),
+    /// Measure a graph: times per pass and per frame, bytes of memory
+    Bench(Bench),
+    /// Print the numbers of one pixel of one port
+    Probe(Probe),
+    /// List the adapters of this machine
+    Adapters,
+    /// Write a commented graph or scene to start from
+    New {
+        #[command(subcommand)]
+        what: New,
+    },
+}
+
+/// What every verb that reads a graph takes.
+#[derive(Debug, Clone, Args)]
+pub(crate) struct GraphArguments {
+    /// The graph file
+    #[arg(value_name = "GRAPH")]
+    pub graph: PathBuf,
+    /// Another scene than the graph names
+    #[arg(long, value_name = "FILE")]
+    pub scene: Option<PathBuf>,
+    /// Size of the picture, 640x480 say
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<(u32, u32)>,
+    /// A parameter: of the graph, `pass.parameter`, or `scene.<path>`; VALUE is RON. The last one wins
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Render {
+    #[command(flatten)]
+    pub graph: GraphArguments,
+    /// Write a graph output, or any `pass.port`, to FILE (.exr, .png, .hdr, .npy)
+    #[arg(long, value_name = "NAME=FILE")]
+    pub output: Vec<String>,
+    /// Write every port of every pass into DIR
+    #[arg(long, value_name = "DIR")]
+    pub dump: Option<PathBuf>,
+    /// Frames A to B, without B; `####` in FILE becomes the number
+    #[arg(long, value_name = "A..B", value_parser = frames)]
+    pub frames: Option<(u32, u32)>,
+    /// The adapter whose name holds this
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+    /// Render again whenever a file changes that the picture depends on
+    #[arg(long)]
+    pub watch: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Check {
+    /// Graph files
+    #[arg(value_name = "GRAPH", required = true)]
+    pub graphs: Vec<PathBuf>,
+    /// How mistakes are written
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// For people
+    Text,
+    /// For programs
+    Json,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Show {
+    #[command(flatten)]
+    pub graph: GraphArguments,
+    /// Draw it
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// For Graphviz
+    #[arg(long, value_name = "FILE")]
+    pub dot: Option<PathBuf>,
+    /// For programs
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Explain {
+    #[command(flatten)]
+    pub graph: GraphArguments,
+    /// A pass, a `pass.port`, or an output
+    #[arg(value_name = "NAME")]
+    pub name: String,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Passes {
+    /// A pass: `airlight.homogeneous`
+    #[arg(value_name = "NAME")]
+    pub name: Option<String>,
+    /// For programs
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Bench {
+    #[command(flatten)]
+    pub graph: GraphArguments,
+    /// How many frames
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub frames: u32,
+    /// Write the figures to FILE
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+    /// Keep results that have not changed, instead of running every pass in every frame
+    #[arg(long)]
+    pub keep: bool,
+    /// Let `pass.parameter` or a parameter of the graph run from A to B over the frames
+    #[arg(long, value_name = "NAME=A..B")]
+    pub vary: Vec<String>,
+    /// The adapter whose name holds this
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Probe {
+    #[command(flatten)]
+    pub graph: GraphArguments,
+    /// A graph output, or any `pass.port`
+    #[arg(value_name = "PORT")]
+    pub port: String,
+    /// The pixel, from the left and from the top
+    #[arg(value_name = "X,Y", value_parser = pixel)]
+    pub pixel: (u32, u32),
+    /// Which frame
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub frame: u32,
+    /// The adapter whose name holds this
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum New {
+    /// Write NAME.graph.ron
+    Graph {
+        /// Path, with or without `.graph.ron`
+        name: PathBuf,
+    },
+    /// Write NAME.scene.ron
+    Scene {
+        /// Path, with or without `.scene.ron`
+        name: PathBuf,
+    },
+}
+
+/// The command line, or the exit code after help was printed or a mistake was told.
+pub(crate) fn parse() -> Result<Arguments, ExitCode> {
+    Arguments::try_parse().map_err(|error| {
+        // Help and version go to standard output, mistakes to standard error; a closed pipe is no reason to panic.
+        let _ = error.print();
+        if error.use_stderr() { ExitCode::from(2) } else { ExitCode::SUCCESS }
+    })
+}
+
+fn size(text: &str) -> Result<(u32, u32), String> {
+    let parts = text.split_once(['x', 'X']).and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+    match parts {
+        Some((0, _) | (_, 0)) => Err("a size of 0 holds no pixel".to_owned()),
+        Some(size) => Ok(size),
+        None => Err("a size is WIDTHxHEIGHT in pixels, 640x480 say".to_owned()),
+    }
+}
+
+fn frames(text: &str) -> Result<(u32, u32), String> {
+    let parts = text.split_once("..").and_then(|(a, b)| Some((a.parse::<u32>().ok()?, b.parse::<u32>().ok()?)));
+    match parts {
+        Some((from, to)) if from < to => Ok((from, to)),
+        Some(_) => Err("A must be below B: frame B is not rendered".to_owned()),
+        None => Err("frames are A..B, 0..24 say".to_owned()),
+    }
+}
+
+fn pixel(text: &str) -> Result<(u32, u32), String> {
+    let parts = text.split_once(',').and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)));
+    parts.ok_or_else(|| "a pixel is X,Y".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_frames_and_pixels() {
+        assert_eq!(size("640x480"), Ok((640, 480)));
+        assert!(size("0x480").is_err_and(|text| text.contains('0')));
+        assert!(size("640").is_err() && size("-1x5").is_err() && size("99999999999x1").is_err());
+        assert_eq!(frames("2..5"), Ok((2, 5)));
+        assert!(frames("5..5").is_err() && frames("a..b").is_err() && frames("3").is_err());
+        assert_eq!(pixel("3,4"), Ok((3, 4)));
+        assert!(pixel("3").is_err());
+    }
+}

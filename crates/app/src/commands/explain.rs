@@ -1,0 +1,17 @@
+//! `explain`: why a pass or port is as it is.
+
+use tyndall_graph::Roots;
+
+use crate::App;
+use crate::cli::{Arguments, Explain};
+use crate::failure::Failure;
+use crate::loading::{self, Wanted};
+use crate::{plugins, terminal};
+
+pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Explain) -> Result<(), Failure> {
+    let registry = plugins::registry(app, arguments, &[&verb.graph.graph])?;
+    let loaded = loading::load(&verb.graph, &registry)?;
+    let plan = loading::plan(&loaded, Wanted { roots: Roots::Outputs, keep: false, live: &[] })?;
+    terminal::text(&tyndall_graph::explain(&plan, &verb.name)?);
+    Ok(())
+}

@@ -1,0 +1,255 @@
+//! `passes`: what every pass declares.
+
+use serde_json::{Value, json};
+use tyndall_graph::descriptor::{Axis, Extent, ParamDescriptor, ParamValue, PortDescriptor, PortKind, Role, SizeRule};
+use tyndall_plugin::{Origin, RegistryPass};
+
+use crate::App;
+use crate::cli::{Arguments, Passes};
+use crate::failure::Failure;
+use crate::{plugins, terminal};
+
+pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Passes) -> Result<(), Failure> {
+    let registry = plugins::registry(app, arguments, &[])?;
+    let passes: Vec<&RegistryPass> = match &verb.name {
+        None => registry.passes().collect(),
+        Some(name) => match registry.pass(name) {
+            Some(pass) => vec![pass],
+            None => {
+                let near = registry.near(name).map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
+                return Err(Failure::Usage(format!("there is no pass `{name}`{near}")));
+            }
+        },
+    };
+    if verb.json {
+        let all: Vec<Value> = passes.iter().map(|pass| as_json(pass)).collect();
+        let value = match (&verb.name, all.as_slice()) {
+            (Some(_), [one]) => one.clone(),
+            _ => Value::Array(all),
+        };
+        terminal::line(&format!("{value:#}"));
+    } else if verb.name.is_some() {
+        passes.iter().for_each(|pass| terminal::text(&document(pass)));
+    } else {
+        terminal::text(&list(&passes));
+    }
+    Ok(())
+}
+
+/// One line a pass, under its plugin.
+fn list(passes: &[&RegistryPass]) -> String {
+    let width = passes.iter().map(|pass| pass.descriptor.name.len()).max().unwrap_or_default();
+    let mut text = String::new();
+    let mut plugin = "";
+    for pass in passes {
+        let name = pass.descriptor.name.as_str();
+        let of = name.split_once('.').map_or(name, |(plugin, _)| plugin);
+        if of != plugin {
+            plugin = of;
+            text += &format!("{of} {}  {}  [{}]\n", pass.version, pass.plugin_about, origin(&pass.origin));
+        }
+        text += &format!("  {name:width$}  {}\n", first_sentence(&pass.descriptor.about));
+    }
+    text
+}
+
+fn first_sentence(text: &str) -> &str {
+    text.find(". ").map_or(text, |end| &text[..=end])
+}
+
+fn origin(origin: &Origin) -> String {
+    match origin {
+        Origin::BuiltIn => "built in".to_owned(),
+        Origin::Folder(path) => path.display().to_string(),
+    }
+}
+
+/// All that a pass declares, as a page.
+fn document(pass: &RegistryPass) -> String {
+    let descriptor = &pass.descriptor;
+    let mut text = format!("{}  ({}, {})\n\n", descriptor.name, pass.version, origin(&pass.origin));
+    text += &wrapped(&descriptor.about, "");
+    if !descriptor.source.is_empty() {
+        text += &wrapped(&format!("Source: {}", descriptor.source), "");
+    }
+    section(&mut text, "Inputs", descriptor.ports.iter().filter(|port| port.role.is_input()).map(port_text));
+    section(&mut text, "Outputs", descriptor.ports.iter().filter(|port| port.role.is_output()).map(port_text));
+    section(&mut text, "Parameters", descriptor.params.iter().map(param_text));
+    if !descriptor.scene.is_empty() {
+        text += &format!("\nReads of the scene: {}\n", descriptor.scene.join(", "));
+    }
+    text
+}
+
+fn section(text: &mut String, title: &str, entries: impl Iterator<Item = String>) {
+    let entries: Vec<String> = entries.collect();
+    if !entries.is_empty() {
+        *text += &format!("\n{title}\n{}", entries.concat());
+    }
+}
+
+fn port_text(port: &PortDescriptor) -> String {
+    let mut facts = vec![kind(&port.kind)];
+    facts.extend((!port.unit.is_empty()).then(|| port.unit.clone()));
+    facts.extend(port.size.as_ref().map(size));
+    facts.extend(role(&port.role));
+    facts.extend(port.unordered.then(|| "unordered".to_owned()));
+    format!("  {}: {}\n{}", port.name, facts.join(", "), wrapped(&port.about, "      "))
+}
+
+fn param_text(param: &ParamDescriptor) -> String {
+    let mut facts = vec![type_name(&param.default).to_owned()];
+    facts.extend((!param.unit.is_empty()).then(|| param.unit.clone()));
+    facts.push(format!("default {}", param.default));
+    facts.extend(param.range.map(|(low, high)| format!("{low:?} to {high:?}")));
+    facts.extend((!param.choices.is_empty()).then(|| format!("one of {}", param.choices.join(", "))));
+    facts.extend(param.fixed.then(|| "part of the pipeline".to_owned()));
+    format!("  {}: {}\n{}", param.name, facts.join(", "), wrapped(&param.about, "      "))
+}
+
+fn kind(kind: &PortKind) -> String {
+    match kind {
+        PortKind::Texture { dimension, class, format, filtered } => {
+            let dimension = match dimension {
+                tyndall_graph::descriptor::Dimension::D2 => "2D texture",
+                tyndall_graph::descriptor::Dimension::D2Array => "2D texture with layers",
+                tyndall_graph::descriptor::Dimension::D3 => "3D texture",
+            };
+            let format = format.map(|format| format!(", {format}")).unwrap_or_default();
+            format!("{dimension} of {}{format}{}", class_name(*class), if *filtered { ", filtered" } else { "" })
+        }
+        PortKind::Buffer { element, stride } => format!("buffer of {element} ({stride} bytes each)"),
+        PortKind::Value { element, bytes } => format!("value {element} ({bytes} bytes)"),
+    }
+}
+
+fn class_name(class: tyndall_graph::descriptor::Class) -> String {
+    format!("{class:?}").to_lowercase()
+}
+
+fn role(role: &Role) -> Option<String> {
+    match role {
+        Role::Input => None,
+        Role::Optional(value) => Some(format!("optional, else {value:?}")),
+        Role::History(first) => Some(format!("what was there in the frame before, at first {first:?}")),
+        Role::Output { disabled } => Some(match disabled {
+            tyndall_graph::descriptor::Disabled::Input(port) => format!("off: {port} flows on"),
+            tyndall_graph::descriptor::Disabled::Constant(value) => format!("off: {value:?}"),
+        }),
+        Role::InOut => Some("changed in place".to_owned()),
+    }
+}
+
+fn type_name(value: &ParamValue) -> &'static str {
+    match value {
+        ParamValue::Bool(_) => "switch",
+        ParamValue::Integer(_) => "whole number",
+        ParamValue::Float(_) => "number",
+        ParamValue::Vector(_) => "vector",
+        ParamValue::Choice(_) => "choice",
+        ParamValue::File(_) => "file",
+    }
+}
+
+fn size(rule: &SizeRule) -> String {
+    let axes = [&rule.width, &rule.height, &rule.depth];
+    if let Extent::Port { port, axis: Axis::X, scale } = &rule.width
+        && matches!(&rule.height, Extent::Port { port: other, .. } if other == port)
+    {
+        return if *scale == 1.0 { format!("as large as {port}") } else { format!("{scale} of {port}") };
+    }
+    if let Extent::Frame { axis: Axis::X, scale } = rule.width {
+        let layers = match rule.depth {
+            Extent::Fixed(layers) if layers > 1 => format!(", {layers} layers"),
+            _ => String::new(),
+        };
+        let frame = if scale == 1.0 { "as large as the frame".to_owned() } else { format!("{scale} of the frame") };
+        return frame + &layers;
+    }
+    axes.map(extent).join(" x ")
+}
+
+fn extent(extent: &Extent) -> String {
+    match extent {
+        Extent::Fixed(texels) => texels.to_string(),
+        Extent::Frame { scale, .. } => format!("{scale} of the frame"),
+        Extent::Port { port, scale, .. } => format!("{scale} of {port}"),
+        Extent::Param(name) => name.clone(),
+        Extent::FramePixels(scale) => format!("{scale} per pixel"),
+    }
+}
+
+/// A paragraph, at most 100 characters a line.
+fn wrapped(text: &str, indent: &str) -> String {
+    let mut lines = String::new();
+    let mut line = indent.to_owned();
+    for word in text.split_whitespace() {
+        if line.len() > indent.len() && line.len() + 1 + word.len() > 100 {
+            lines += &line;
+            lines.push('\n');
+            line = indent.to_owned();
+        }
+        if line.len() > indent.len() {
+            line.push(' ');
+        }
+        line += word;
+    }
+    lines + &line + "\n"
+}
+
+fn as_json(pass: &RegistryPass) -> Value {
+    let descriptor = &pass.descriptor;
+    json!({
+        "name": descriptor.name,
+        "version": pass.version.to_string(),
+        "origin": origin(&pass.origin),
+        "about": descriptor.about,
+        "source": descriptor.source,
+        "inputs": descriptor.ports.iter().filter(|port| port.role.is_input()).map(port_json).collect::<Vec<_>>(),
+        "outputs": descriptor.ports.iter().filter(|port| port.role.is_output()).map(port_json).collect::<Vec<_>>(),
+        "params": descriptor.params.iter().map(param_json).collect::<Vec<_>>(),
+        "scene": descriptor.scene,
+    })
+}
+
+fn port_json(port: &PortDescriptor) -> Value {
+    let (class, format, filtered) = match &port.kind {
+        PortKind::Texture { class, format, filtered, .. } => {
+            (Some(class_name(*class)), format.map(|format| format.to_string()), *filtered)
+        }
+        _ => (None, None, false),
+    };
+    json!({
+        "name": port.name,
+        "about": port.about,
+        "unit": port.unit,
+        "type": kind(&port.kind),
+        "class": class,
+        "format": format,
+        "filtered": filtered,
+        "size": port.size.as_ref().map(size),
+        "required": port.role == Role::Input,
+        "role": role(&port.role),
+        "unordered": port.unordered,
+    })
+}
+
+fn param_json(param: &ParamDescriptor) -> Value {
+    let default = match &param.default {
+        ParamValue::Bool(on) => json!(on),
+        ParamValue::Integer(number) => json!(number),
+        ParamValue::Float(number) => json!(number),
+        ParamValue::Vector(numbers) => json!(numbers),
+        ParamValue::Choice(word) | ParamValue::File(word) => json!(word),
+    };
+    json!({
+        "name": param.name,
+        "about": param.about,
+        "unit": param.unit,
+        "type": type_name(&param.default),
+        "default": default,
+        "range": param.range.map(|(low, high)| [low, high]),
+        "choices": param.choices,
+        "fixed": param.fixed,
+    })
+}

@@ -1,0 +1,42 @@
+//! `probe`: the numbers of one pixel.
+
+use tyndall_document::Place;
+use tyndall_gpu::{FrameOptions, Gpu, PipelineCache, PortData};
+use tyndall_graph::Roots;
+
+use crate::App;
+use crate::cli::{Arguments, Probe};
+use crate::failure::Failure;
+use crate::loading::{self, Wanted};
+use crate::running::Running;
+use crate::{plugins, terminal};
+
+pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Probe) -> Result<(), Failure> {
+    let registry = plugins::registry(app, arguments, &[&verb.graph.graph])?;
+    let loaded = loading::load(&verb.graph, &registry)?;
+    let port = loaded.graph.find(&verb.port, Place::Argument(verb.port.clone()))?;
+    let plan = loading::plan(&loaded, Wanted { roots: Roots::Ports(vec![port]), keep: false, live: &[] })?;
+    let planned = plan.planned(port).ok_or_else(|| Failure::Usage(format!("`{}` is in no pass that runs", verb.port)))?;
+    let gpu = Gpu::open(verb.adapter.as_deref())?;
+    let mut running = Running::new(&gpu, plan, loaded.scene.as_ref(), &registry, &mut PipelineCache::default())?;
+    running.frame(FrameOptions { frame: verb.frame, ..FrameOptions::default() })?;
+    let data = running.executor.read(planned)?;
+    let (x, y) = verb.pixel;
+    if x >= data.width || y >= data.height {
+        let message = format!("`{}` is {}x{}: pixel {x},{y} is outside", verb.port, data.width, data.height);
+        return Err(Failure::Usage(message));
+    }
+    let unit = running.executor.plan().port_descriptor(planned).unit.clone();
+    for layer in 0..data.layers {
+        let numbers: Vec<String> = numbers(&data, layer, x, y).iter().map(|number| format!("{number:e}")).collect();
+        let layer = if data.layers > 1 { format!("[{layer}]") } else { String::new() };
+        terminal::line(format!("{}{layer} {x},{y}: {} {unit}", verb.port, numbers.join("  ")).trim_end());
+    }
+    Ok(())
+}
+
+fn numbers(data: &PortData, layer: u32, x: u32, y: u32) -> &[f32] {
+    let channels = data.channels as usize;
+    let texel = (layer as usize * data.height as usize + y as usize) * data.width as usize + x as usize;
+    &data.data[texel * channels..(texel + 1) * channels]
+}

@@ -1,0 +1,181 @@
+//! `render`: a graph's outputs as files.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use tyndall_document::Place;
+use tyndall_gpu::{FrameOptions, Gpu, PipelineCache};
+use tyndall_graph::descriptor::Class;
+use tyndall_graph::{Graph, PortRef, Roots};
+use tyndall_image::{frame_path, has_frame_number, supported};
+
+use crate::App;
+use crate::cli::{Arguments, Render};
+use crate::failure::Failure;
+use crate::loading::{self, Loaded, Wanted};
+use crate::pictures::{dump_path, write_port};
+use crate::running::Running;
+use crate::{plugins, terminal};
+
+/// A port, and the file that it goes to (with `####` for the number of a frame).
+struct Output {
+    port: PortRef,
+    pattern: PathBuf,
+}
+
+/// Renders, and gives the files that the pictures depend on.
+pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Render) -> Result<Vec<PathBuf>, Failure> {
+    let mut clock = Clock::start(app);
+    let registry = plugins::registry(app, arguments, &[&verb.graph.graph])?;
+    clock.lap("plugins");
+    let loaded = loading::load(&verb.graph, &registry)?;
+    let depends_on = depends_on(verb, &loaded);
+    let outputs = outputs(verb, &loaded.graph)?;
+    clock.lap("graph and scene");
+    let (first, end) = verb.frames.unwrap_or((0, 1));
+    let roots = match (&verb.dump, verb.output.is_empty()) {
+        (Some(_), _) => Roots::All,
+        (None, true) => Roots::Outputs,
+        (None, false) => Roots::Ports(outputs.iter().map(|output| output.port).collect()),
+    };
+    let plan = loading::plan(&loaded, Wanted { roots, keep: end - first > 1, live: &[] })?;
+    clock.lap("plan");
+    let gpu = Gpu::open(verb.adapter.as_deref())?;
+    clock.lap("device");
+    let mut cache = PipelineCache::default();
+    let mut running = Running::new(&gpu, plan, loaded.scene.as_ref(), &registry, &mut cache)?;
+    clock.lap("pipelines");
+    let progress = progress(u64::from(end - first));
+    for frame in first..end {
+        running.frame(FrameOptions { frame, ..FrameOptions::default() })?;
+        gpu.wait()?;
+        clock.lap("frames");
+        let written = progress.suspend(|| write_frame(&running, verb, &outputs, frame));
+        written?;
+        clock.lap("files");
+        progress.inc(1);
+    }
+    progress.finish_and_clear();
+    terminal::line(&clock.summary());
+    Ok(depends_on)
+}
+
+/// Files whose change would change the pictures.
+fn depends_on(verb: &Render, loaded: &Loaded) -> Vec<PathBuf> {
+    let scene = loaded.scene.iter().flat_map(|scene| scene.files().to_vec());
+    std::iter::once(verb.graph.graph.clone()).chain(scene).collect()
+}
+
+/// What is asked for, checked before anything is drawn.
+fn outputs(verb: &Render, graph: &Graph) -> Result<Vec<Output>, Failure> {
+    let mut outputs = Vec::new();
+    for argument in &verb.output {
+        let place = Place::Argument(format!("--output {argument}"));
+        let Some((name, file)) = argument.split_once('=').filter(|(_, file)| !file.is_empty()) else {
+            return Err(Failure::Usage(format!("--output {argument} names no file: write NAME=FILE")));
+        };
+        let port = graph.find(name.trim(), place)?;
+        outputs.push(Output { port, pattern: PathBuf::from(file) });
+    }
+    if verb.output.is_empty() && verb.dump.is_none() {
+        outputs = default_outputs(verb, graph);
+    }
+    for output in &outputs {
+        supported(&output.pattern)?;
+        let many = verb.frames.is_some_and(|(first, end)| end - first > 1);
+        if many && !has_frame_number(&output.pattern) {
+            let path = output.pattern.display();
+            return Err(Failure::Usage(format!("every frame would overwrite {path}: put #### into its name")));
+        }
+    }
+    Ok(outputs)
+}
+
+/// `out/<graph>.<output>.exr`, `image` as `.png`; with the number of the frame where there are several.
+fn default_outputs(verb: &Render, graph: &Graph) -> Vec<Output> {
+    let file = verb.graph.graph.file_name().unwrap_or_default().to_string_lossy();
+    let stem = file.strip_suffix(".graph.ron").or_else(|| file.strip_suffix(".ron")).unwrap_or(&file);
+    let number = if verb.frames.is_some() { ".####" } else { "" };
+    let path = |name: &str, port: PortRef| {
+        let suffix = match &graph.port(port).kind {
+            _ if name == "image" => "png",
+            tyndall_graph::descriptor::PortKind::Texture {
+                dimension: tyndall_graph::descriptor::Dimension::D2,
+                class,
+                ..
+            } if *class != Class::Display => "exr",
+            tyndall_graph::descriptor::PortKind::Texture { class: Class::Display, .. } => "png",
+            _ => "npy",
+        };
+        Path::new("out").join(format!("{stem}.{name}{number}.{suffix}"))
+    };
+    graph.outputs.iter().map(|(name, port)| Output { port: *port, pattern: path(name, *port) }).collect()
+}
+
+fn write_frame(running: &Running<'_>, verb: &Render, outputs: &[Output], frame: u32) -> Result<(), Failure> {
+    let executor = &running.executor;
+    for output in outputs {
+        let path = frame_path(&output.pattern, frame);
+        let name = || executor.plan().graph.port_name(output.port);
+        let port = executor.plan().planned(output.port);
+        let port = port.ok_or_else(|| Failure::Usage(format!("`{}` is in no pass that runs", name())))?;
+        write_port(executor, port, &path)?;
+        told(&path, running);
+    }
+    if let Some(folder) = &verb.dump {
+        let many = verb.frames.is_some_and(|(first, end)| end - first > 1);
+        let folder = if many { folder.join(format!("{frame:04}")) } else { folder.clone() };
+        for port in 0..executor.plan().ports.len() as u32 {
+            let path = dump_path(executor, port, &folder);
+            write_port(executor, port, &path)?;
+            told(&path, running);
+        }
+    }
+    Ok(())
+}
+
+fn told(path: &Path, running: &Running<'_>) {
+    let (width, height) = running.executor.plan().size;
+    let bytes = std::fs::metadata(path).map_or(0, |data| data.len());
+    terminal::line(&format!("wrote {}  ({width}x{height}, {})", path.display(), tyndall_gpu::bytes(bytes)));
+}
+
+/// A bar where somebody looks at a terminal and there is something to wait for.
+fn progress(frames: u64) -> indicatif::ProgressBar {
+    if frames < 2 {
+        return indicatif::ProgressBar::hidden();
+    }
+    indicatif::ProgressBar::new(frames)
+}
+
+/// Where the time goes.
+struct Clock {
+    started: Instant,
+    last: Instant,
+    laps: Vec<(&'static str, Duration)>,
+}
+
+impl Clock {
+    fn start(app: &App) -> Self {
+        Self { started: app.started, last: app.started, laps: Vec::new() }
+    }
+
+    fn lap(&mut self, name: &'static str) {
+        let now = Instant::now();
+        let took = now - self.last;
+        self.last = now;
+        match self.laps.iter_mut().find(|(lap, _)| *lap == name) {
+            Some((_, sum)) => *sum += took,
+            None => self.laps.push((name, took)),
+        }
+    }
+
+    fn summary(&self) -> String {
+        let laps: Vec<String> = self.laps.iter().map(|(name, took)| format!("{name} {}", milliseconds(*took))).collect();
+        format!("{} in all: {}", milliseconds(self.started.elapsed()), laps.join(", "))
+    }
+}
+
+fn milliseconds(duration: Duration) -> String {
+    format!("{:.1} ms", duration.as_secs_f64() * 1e3)
+}

@@ -1,0 +1,64 @@
+//! The program `tyndall`: its verbs over the layers below.
+//!
+//! `App::new().plugin(my_plugin::plugin()).run()` is a `tyndall` with one more plugin in it.
+
+mod cli;
+mod commands;
+mod failure;
+mod loading;
+mod pictures;
+mod plugins;
+mod running;
+mod terminal;
+
+use std::process::ExitCode;
+use std::time::Instant;
+
+use tyndall_plugin::Plugin;
+
+/// The program, and the plugins that are compiled into it.
+pub struct App {
+    plugins: Vec<fn() -> Plugin>,
+    started: Instant,
+}
+
+impl App {
+    /// The program with the plugins that it ships.
+    pub fn new() -> Self {
+        let plugins = vec![
+            tyndall_core::plugin as fn() -> Plugin,
+            tyndall_airlight::plugin,
+            tyndall_surface_radiance::plugin,
+            tyndall_march::plugin,
+        ];
+        Self { plugins, started: Instant::now() }
+    }
+
+    /// Adds a plugin.
+    #[must_use]
+    pub fn plugin(mut self, plugin: fn() -> Plugin) -> Self {
+        self.plugins.push(plugin);
+        self
+    }
+
+    /// Reads the command line and does what it says.
+    pub fn run(self) -> ExitCode {
+        let arguments = match cli::parse() {
+            Ok(arguments) => arguments,
+            Err(code) => return code,
+        };
+        match commands::run(&self, &arguments) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(failure) => {
+                failure.print();
+                ExitCode::from(failure.exit_code())
+            }
+        }
+    }
+}
+
+impl Default for App {
+    fn default() -> Self {
+        Self::new()
+    }
+}

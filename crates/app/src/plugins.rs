@@ -1,0 +1,40 @@
+//! The registry of a run: the program's own plugins, and those found at run time.
+
+use std::path::{Path, PathBuf};
+
+use tyndall_document::Diagnostics;
+use tyndall_plugin::{Registry, SearchPath, find_folders, shader_modules};
+
+use crate::App;
+use crate::cli::Arguments;
+use crate::failure::Failure;
+
+/// The environment variable with further folders, separated as in `PATH`.
+const PLUGIN_PATH: &str = "TYNDALL_PLUGIN_PATH";
+
+/// Links and checks every pass that is found. `beside` are files whose folders may hold a `plugins` folder.
+pub(crate) fn registry(app: &App, arguments: &Arguments, beside: &[&Path]) -> Result<Registry, Failure> {
+    let paths = search_paths(arguments, beside);
+    let folders = find_folders(&paths)?;
+    let shared = shader_modules(tyndall_shaders::MODULES, &paths)?;
+    let crates = app.plugins.iter().map(|plugin| plugin()).collect();
+    Registry::new(crates, folders, &shared, tyndall_scene::SCENE_DATA).map_err(|mut mistakes: Diagnostics| {
+        mistakes.dedup();
+        Failure::Mistakes(mistakes)
+    })
+}
+
+/// Where plugins are looked for: the command line, the environment, `plugins` beside the graph, `plugins` here.
+pub(crate) fn search_paths(arguments: &Arguments, beside: &[&Path]) -> Vec<SearchPath> {
+    let required = |path: PathBuf| SearchPath { path, required: true };
+    let usual = |path: PathBuf| SearchPath { path, required: false };
+    let mut paths: Vec<SearchPath> = arguments.plugin_path.iter().cloned().map(required).collect();
+    if let Some(more) = std::env::var_os(PLUGIN_PATH) {
+        paths.extend(std::env::split_paths(&more).filter(|path| !path.as_os_str().is_empty()).map(required));
+    }
+    for file in beside {
+        paths.push(usual(file.parent().unwrap_or(Path::new("")).join("plugins")));
+    }
+    paths.push(usual(PathBuf::from("plugins")));
+    paths
+}

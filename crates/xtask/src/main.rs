@@ -1,0 +1,59 @@
+//! The project's two commands: `cargo xtask demo` and `cargo xtask test`.
+//!
+//! Each does all its own set-up on a fresh machine that has a Rust toolchain and git. Every other program that they
+//! start is printed before it runs. Exit codes are those of `tyndall`: 0 done, 1 a check failed, 2 wrong usage,
+//! 3 the machine cannot do it.
+
+#![allow(clippy::print_stdout, reason = "what a command-line tool has to say goes to standard output")]
+
+mod command;
+mod demo;
+mod driver;
+mod licences;
+mod machine_paths;
+mod one_version;
+mod spdx;
+mod test;
+mod test_output;
+mod workspace;
+
+use std::process::ExitCode;
+
+use command::Failure;
+use workspace::Workspace;
+
+const USAGE: &str = "\
+Usage: cargo xtask <demo|test>
+
+  demo   builds, makes sure that a GPU driver answers, renders the demo graphs into out/
+  test   builds, makes sure that a GPU driver answers, runs every check and every test
+
+The environment variable TYNDALL_ASSETS names the folder of the real models that some tests read; without it they do
+not run, and `test` says how many.";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match run(&arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("error: {}", failure.message);
+            ExitCode::from(failure.exit_code)
+        }
+    }
+}
+
+fn run(arguments: &[String]) -> Result<(), Failure> {
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match arguments[..] {
+        ["demo"] => demo::run(&Workspace::here()?),
+        ["test"] => test::run(&Workspace::here()?),
+        ["help" | "--help" | "-h"] => {
+            println!("{USAGE}");
+            Ok(())
+        }
+        [] => Err(Failure::usage(format!("no command is given\n\n{USAGE}"))),
+        [ref other, ..] => {
+            Err(Failure::usage(format!("`{other}` is no command, or has too many arguments\n\n{USAGE}")))
+        }
+    }
+}
