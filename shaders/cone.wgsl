@@ -1,6 +1,7 @@
-// A spot's cone of light, and the part of a ray that lies in it.
+// A spot's cone of light, and the parts of a ray that lie in it.
 //
 //   axis      unit vector, the way the spot shines
+//   psi       angle between the axis and the way from the light to a point
 //   c         cosine of the cutoff, a half-angle below 180 degrees
 //   N         exponent of the spot's cos^N
 //   along     component of the axis along the ray
@@ -8,51 +9,84 @@
 //             What is left of the axis is out of the plane of light and ray: along^2 + across^2 = cos^2(delta)
 //   v         place on the ray, tan(pi/4 + theta/2), theta the angle at the light from the foot, growing along the ray
 //
-// cos(psi), psi between axis and way to the point, is cos(delta) cos(theta + alpha), so in v
-//   cos(psi) = (along (v^2 - 1) + 2 across v) / (1 + v^2)
+// cos(psi) = cos(delta) cos(theta + alpha), so in v
+//   cos(psi) = (along (v^2 - 1) + 2 across v)/(1 + v^2)
 // The thesis (Hong 2006, section 6.2.1) leaves cos(delta) out, which is right only where the axis lies in the plane.
 
 #import scene
 
-// I / I_0 of a spot where the angle with its axis has this cosine: cos^N inside the cutoff, 0 outside. Beyond 90 degrees
+// I/I_0 of a spot where the angle with its axis has this cosine: cos^N inside the cutoff, 0 outside. Beyond 90 degrees
 // from the axis only a spot with N = 0 shines.
 fn spot_falloff(light: Light, cosine: f32) -> f32 {
     let inside = cosine >= light.cos_cutoff && (cosine > 0.0 || light.exponent == 0.0);
     return select(0.0, pow(max(cosine, 1e-30), light.exponent), inside);
 }
 
-// The parts of a ray that lie in a cone: 0 to 2 intervals of v, none of them empty.
-struct Lit {
-    count: u32,
-    first: vec2<f32>,
+// The lit parts of a ray, in v, each from x to y.
+struct SpotBesideRay {
+    along: f32,
+    across: f32,
+    parts: u32,                 // 0 to 2
+    first: vec2<f32>,           // empty where there is no part
     second: vec2<f32>,
+}
+
+// cos^N is left out where it is below 2^-20 of its largest value on the ray, so that a narrow peak gets all nodes; and
+// the ray is cut in two at the peak if N is above this.
+const FALLOFF_BITS: f32 = 20.0;
+const SPLIT_EXPONENT: f32 = 2.0;
+
+// Of the ray from v0 to v1. `from_light` is the unit vector from the light to the foot.
+fn spot_beside_ray(light: Light, direction: vec3<f32>, from_light: vec3<f32>, v0: f32, v1: f32) -> SpotBesideRay {
+    let along = dot(light.direction, direction);
+    let across = clamp(dot(light.direction, from_light), -1.0, 1.0);
+    // v of the peak, tan(pi/4 + atan2(along, across)/2), at an end of the ray where across < 0
+    let m = sqrt(along * along + across * across);
+    let toward = max(across, 0.0);
+    let peak = select(m + along, toward, along < 0.0) / max(select(toward, m - along, along < 0.0), 1e-30);
+    let v = clamp(peak, v0, v1);
+    let q = 1.0 / (1.0 + v * v);
+    let highest = max(along * (1.0 - 2.0 * q) + 2.0 * across * v * q, 0.0);
+    let lowest = highest * exp2(-FALLOFF_BITS / max(light.exponent, 0.01));
+    let lit = ray_in_cone(along, across, max(light.cos_cutoff, select(-1.0, lowest, light.exponent > 0.0)));
+    let low = max(lit.first.x, v0);
+    let high = min(lit.first.y, v1);
+    if lit.parts == 1u && light.exponent > SPLIT_EXPONENT && low < v && v < high {
+        return SpotBesideRay(along, across, 2u, vec2<f32>(low, v), vec2<f32>(v, high));
+    }
+    return SpotBesideRay(along, across, lit.parts, lit.first, lit.second);
 }
 
 // The largest v there is: its square must stay finite.
 const V_MAX: f32 = 1e18;
 
+struct Lit {
+    parts: u32,
+    first: vec2<f32>,
+    second: vec2<f32>,
+}
+
 // The parts of 0 <= v <= V_MAX with cos(psi) >= c: the roots of (along - c) v^2 + 2 across v - (along + c) = 0, in the form
-// that does not cancel. Two intervals need a cone wider than a half-space (c < 0), whose dark rest is a cone.
+// that does not cancel. Two parts need a cone wider than a half-space (c < 0), whose dark rest is a cone.
 fn ray_in_cone(along: f32, across: f32, c: f32) -> Lit {
+    let nothing = vec2<f32>(0.0);
     let discriminant = along * along + across * across - c * c;
     if discriminant <= 0.0 {
-        return Lit(select(0u, 1u, c < 0.0), vec2<f32>(0.0, V_MAX), vec2<f32>(0.0));
+        return Lit(select(0u, 1u, c < 0.0), select(nothing, vec2<f32>(0.0, V_MAX), c < 0.0), nothing);
     }
     let root = sqrt(discriminant);
     let q = -(across + select(-root, root, across >= 0.0));
     let a = along - c;
-    let b = -(along + c);
-    // v = q/a and v = b/q; where a is 0 the first root is at infinity
-    let divisor = select(min(a, -1e-30), a, a > 1e-30);
-    let v1 = clamp(q / divisor, -V_MAX, V_MAX);
-    let v2 = clamp(b / q, -V_MAX, V_MAX);
+    // v = q/a and v = -(along + c)/q; where a is 0 the first root is at infinity
+    let v1 = clamp(q / select(min(a, -1e-30), a, a > 1e-30), -V_MAX, V_MAX);
+    let v2 = clamp(-(along + c) / q, -V_MAX, V_MAX);
     let low = max(min(v1, v2), 0.0);
     let high = max(max(v1, v2), 0.0);
     if a <= 0.0 {                // lit between the roots
-        return Lit(select(0u, 1u, high > low), vec2<f32>(low, high), vec2<f32>(0.0));
+        return Lit(select(0u, 1u, high > low), vec2<f32>(low, high), nothing);
     }
     if low <= 0.0 {              // lit beyond the upper root only
-        return Lit(1u, vec2<f32>(high, V_MAX), vec2<f32>(0.0));
+        return Lit(1u, vec2<f32>(high, V_MAX), nothing);
     }
     return Lit(2u, vec2<f32>(0.0, low), vec2<f32>(high, V_MAX));
 }

@@ -21,8 +21,7 @@ mod tests {
 
     #[test]
     fn transmittance_of_split_ways_is_the_product() {
-        let medium =
-            Medium { extinction: DVec3::new(0.0, 0.1, 2.0), albedo: DVec3::ONE, phase: Phase::Isotropic };
+        let medium = Medium { extinction: DVec3::new(0.0, 0.1, 2.0), albedo: DVec3::ONE, phase: Phase::Isotropic };
         let split = transmittance(&medium, 1.25) * transmittance(&medium, 2.5);
         assert!((transmittance(&medium, 3.75) - split).length() < 1e-15);
         assert_eq!(transmittance(&medium, f64::INFINITY), DVec3::X);

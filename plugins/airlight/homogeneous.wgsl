@@ -3,7 +3,7 @@
 #import ray
 #import airlight
 
-override nodes: u32 = 12;
+override nodes: u32 = 8;
 
 var<uniform> camera: Camera;
 var<uniform> medium: Medium;
@@ -20,8 +20,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let ray = ray_of_pixel(camera, id.xy, size);
     let way = textureLoad(depth, id.xy, 0).x;
     var sum = vec3<f32>(0.0);
-    for (var i = 0u; i < lights.count; i++) {
-        sum += airlight(lights.items[i], medium, ray, way, nodes);
+    // a list without lights holds one of intensity 0
+    var cursor = Cursor(0u, 0u, 0u);
+    loop {
+        let part = airlight(cursor, lights.items[cursor.light], medium, ray, way, nodes);
+        sum += part.radiance;
+        cursor = part.next;
+        if cursor.light >= lights.count { break; }
     }
     textureStore(radiance, id.xy, vec4<f32>(sum, 1.0));
 }

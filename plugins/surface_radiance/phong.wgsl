@@ -31,7 +31,7 @@ var radiance: texture_storage_2d<rgba32float, write>;
 // L of one light at a surface, before the way to the eye; `normal` is turned to the eye, `mirrored` is the view ray
 // mirrored at the surface; both unit vectors.
 fn reflected(light: Light, position: vec3<f32>, normal: vec3<f32>, mirrored: vec3<f32>, rho: vec3<f32>, phong: vec4<f32>) -> vec3<f32> {
-    let incident = incident(light, position);
+    let incident = incident_light(light, position);
     let cosine = dot(normal, incident.to_light);
     if cosine <= 0.0 {
         return vec3<f32>(0.0);
@@ -57,8 +57,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let position = ray.origin + way * ray.direction;
         let rho = textureLoad(material, id.xy, 0, 0).xyz;
         let phong = textureLoad(material, id.xy, 1, 0);
-        for (var i = 0u; i < lights.count; i++) {
+        // a list without lights holds one of intensity 0; why the test stands at the end: see shaders/airlight.wgsl
+        var i = 0u;
+        loop {
             sum += reflected(lights.items[i], position, toward_eye, mirrored, rho, phong);
+            i++;
+            if i >= lights.count { break; }
         }
         sum *= transmittance(medium, way);
     }

@@ -214,7 +214,7 @@ fn a_large_graph_is_read_fast() {
     let megabytes = text.len() as f64 / 1e6;
     println!("{megabytes:.2} MB in {:.2} ms: {:.0} MB/s", best * 1e3, megabytes / best);
     // Far below what it reaches, for machines under load.
-    assert!(megabytes / best > 10.0, "{:.1} MB/s", megabytes / best);
+    assert!(megabytes / best > 5.0, "{:.1} MB/s", megabytes / best);
 }
 
 /// Texts made to be slow: each must be done in a time that grows with its length alone.

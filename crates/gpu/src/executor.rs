@@ -19,7 +19,7 @@ use crate::readback::{PortData, read};
 use crate::scene::SceneBuffers;
 use crate::setup::{Program, Programs, Recorder, Setup};
 use crate::slots::{Physical, create_all, fill, fill_stated};
-use crate::timing::{Stamps, Timing};
+use crate::timing::{Stamps, Stopwatch, Timing};
 use crate::view::PlannedView;
 
 /// What is wanted of one frame.
@@ -166,39 +166,41 @@ impl Executor {
             &self.programs,
             options.everything,
         );
-        let descriptor = wgpu::CommandEncoderDescriptor { label: Some("frame") };
-        let mut encoder = self.gpu.device.create_command_encoder(&descriptor);
-        self.record(&mut encoder, options)?;
-        self.gpu.queue.submit([encoder.finish()]);
+        let mut watch = self.record(options)?;
         let cpu_us = start.elapsed().as_secs_f64() * 1e6;
         self.freshness.remember(&self.plan);
         let gpu_us = match (&self.stamps, options.timing) {
             (None, _) | (_, Timing::Off) => None,
+            (Some(_), _) if self.gpu.is_software() => watch.microseconds(&self.gpu)?,
             (Some(stamps), _) => stamps.microseconds(&self.gpu)?,
         };
         self.gpu.check()?;
         Ok(FrameReport { passes_run, cpu_us, gpu_us })
     }
 
-    fn record(&mut self, encoder: &mut wgpu::CommandEncoder, options: FrameOptions) -> Result<(), GpuError> {
+    fn record(&mut self, options: FrameOptions) -> Result<Stopwatch, GpuError> {
         let Self { gpu, plan, slots, programs, values, samplers, stamps, freshness, counters, scene, .. } = self;
         if let Some(stamps) = stamps.as_mut() {
             stamps.reset();
         }
-        let mark_frame = |stamps: &mut Option<Stamps>, encoder: &mut wgpu::CommandEncoder| {
-            if let (Some(stamps), Timing::Frame) = (stamps.as_mut(), options.timing) {
-                stamps.mark(encoder);
-            }
-        };
-        mark_frame(stamps, encoder);
+        let mut encoder = new_encoder(gpu);
+        let mut watch = Stopwatch::default();
+        if let (Some(stamps), Timing::Frame) = (stamps.as_mut(), options.timing) {
+            stamps.mark(&mut encoder);
+        }
         for step in &plan.steps {
             match *step {
                 Step::Run { pass: position } if freshness.runs(position as usize) => {
                     let pass = position as usize;
-                    let start = options.cpu_times.then(Instant::now);
                     let timed = options.timing == Timing::Pass(pass);
+                    if timed {
+                        // Alone on the GPU: else a driver that works ahead or behind counts other passes too.
+                        submit(gpu, &mut encoder);
+                        gpu.wait()?;
+                    }
+                    let start = options.cpu_times.then(Instant::now);
                     let mut recorder = Recorder {
-                        encoder,
+                        encoder: &mut encoder,
                         bound: Bound { gpu, slots, scene, samplers },
                         pass: PlannedView { plan, position },
                         values: &values[pass],
@@ -209,21 +211,32 @@ impl Executor {
                     if let Some(start) = start {
                         counters[pass].cpu_us = start.elapsed().as_secs_f64() * 1e6;
                     }
+                    if timed {
+                        watch.start();
+                        submit(gpu, &mut encoder);
+                        watch.stop(gpu)?;
+                    }
                 }
                 Step::Run { .. } => {}
                 Step::Copy { pass, from, to } => {
                     if freshness.runs(pass as usize) {
-                        copy(encoder, &slots[from as usize], &slots[to as usize]);
+                        copy(&mut encoder, &slots[from as usize], &slots[to as usize]);
                     }
                 }
-                Step::Carry { from, to } => copy(encoder, &slots[from as usize], &slots[to as usize]),
+                Step::Carry { from, to } => copy(&mut encoder, &slots[from as usize], &slots[to as usize]),
             }
         }
-        mark_frame(stamps, encoder);
-        if let (Some(stamps), true) = (stamps.as_ref(), options.timing != Timing::Off) {
-            stamps.resolve(encoder);
+        if let Some(stamps) = stamps.as_mut() {
+            if options.timing == Timing::Frame {
+                stamps.mark(&mut encoder);
+            }
+            stamps.resolve(&mut encoder);
         }
-        Ok(())
+        if options.timing == Timing::Frame {
+            watch.start();
+        }
+        gpu.queue.submit([encoder.finish()]);
+        Ok(watch)
     }
 
     /// The content of a port after the last frame. Waits for the GPU.
@@ -258,6 +271,16 @@ impl Executor {
             };
         }
     }
+}
+
+fn new_encoder(gpu: &Gpu) -> wgpu::CommandEncoder {
+    gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") })
+}
+
+/// Submits what was recorded so far, and starts anew.
+fn submit(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) {
+    let recorded = std::mem::replace(encoder, new_encoder(gpu));
+    gpu.queue.submit([recorded.finish()]);
 }
 
 /// Frame n shows time n over this.

@@ -1,5 +1,7 @@
 //! GPU times: pairs of timestamps around wgpu passes, resolved after the frame.
 
+use std::time::{Duration, Instant};
+
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::readback::read_bytes;
@@ -18,6 +20,34 @@ pub enum Timing {
     Frame,
     /// One pass, by its position in the plan.
     Pass(usize),
+}
+
+/// Time from submission to completion, for software adapters: the processor does the work there, and their timestamps
+/// are taken when the driver flushes its bins, which says nothing of dispatches.
+#[derive(Default)]
+pub(crate) struct Stopwatch {
+    started: Option<Instant>,
+    took: Option<Duration>,
+}
+
+impl Stopwatch {
+    /// Just before the work is submitted.
+    pub(crate) fn start(&mut self) {
+        self.started = Some(Instant::now());
+    }
+
+    /// Waits for the work.
+    pub(crate) fn stop(&mut self, gpu: &Gpu) -> Result<(), GpuError> {
+        gpu.wait()?;
+        self.took = self.took.or(self.started.map(|started| started.elapsed()));
+        Ok(())
+    }
+
+    /// What it measured, after waiting for the work where nobody has.
+    pub(crate) fn microseconds(&mut self, gpu: &Gpu) -> Result<Option<f64>, GpuError> {
+        self.stop(gpu)?;
+        Ok(self.took.map(|took| took.as_secs_f64() * 1e6))
+    }
 }
 
 /// Timestamps of one frame.

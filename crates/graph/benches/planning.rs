@@ -1,6 +1,6 @@
 //! Text to plan, step by step, from 10 to 10,000 passes.
 
-#![allow(missing_docs, reason = "a benchmark")]
+#![allow(missing_docs, clippy::unwrap_used, reason = "a benchmark")]
 
 #[path = "../tests/support/mod.rs"]
 mod support;

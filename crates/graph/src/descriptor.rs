@@ -28,12 +28,12 @@ pub struct PassDescriptor {
 
 impl PassDescriptor {
     /// The ports that must or may be fed, in order; an in-out port is one of them.
-    pub fn inputs(&self) -> impl Iterator<Item = &PortDescriptor> {
+    pub fn inputs(&self) -> impl Iterator<Item = &PortDescriptor> + Clone {
         self.ports.iter().filter(|port| port.role.is_input())
     }
 
     /// The ports that other passes can read, in order; an in-out port is one of them.
-    pub fn outputs(&self) -> impl Iterator<Item = &PortDescriptor> {
+    pub fn outputs(&self) -> impl Iterator<Item = &PortDescriptor> + Clone {
         self.ports.iter().filter(|port| port.role.is_output())
     }
 

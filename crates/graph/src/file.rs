@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use tyndall_document::{Decoder, Diagnostic, Diagnostics, Fields, Node, Source, Span, Value, parse};
+use tyndall_document::{Decoder, Diagnostic, Diagnostics, Field, Node, Source, Span, Value, parse};
 
 use crate::codes;
 
@@ -44,11 +44,38 @@ pub struct Spanned<T> {
     pub span: Span,
 }
 
+/// A text of the file. Most stand there letter by letter, so only the others are stored; [`GraphFile::text`] reads both.
+#[derive(Debug, Clone)]
+pub struct Text {
+    /// Where, quotes included.
+    pub span: Span,
+    escaped: Option<Box<str>>,
+}
+
+impl GraphFile {
+    /// What a text of this file says.
+    pub fn text<'a>(&'a self, text: &'a Text) -> &'a str {
+        match &text.escaped {
+            Some(text) => text,
+            // As `Text::new` has seen, the quotes are a byte each.
+            None => &self.source.text()[text.span.start as usize + 1..text.span.end as usize - 1],
+        }
+    }
+}
+
+impl Text {
+    fn new(source: &Source, span: Span, text: String) -> Self {
+        let written = source.slice(span);
+        let plain = written.strip_prefix('"').and_then(|written| written.strip_suffix('"')) == Some(&text);
+        Self { span, escaped: (!plain).then(|| text.into_boxed_str()) }
+    }
+}
+
 /// A named value.
 #[derive(Debug, Clone)]
 pub struct ParamEntry {
     /// Name.
-    pub name: Spanned<String>,
+    pub name: Text,
     /// Value, or a text `$name`.
     pub value: Node,
 }
@@ -57,9 +84,9 @@ pub struct ParamEntry {
 #[derive(Debug, Clone)]
 pub struct PassEntry {
     /// Name.
-    pub name: Spanned<String>,
+    pub name: Text,
     /// What `use` says; `None` where it is missing, which has been reported.
-    pub kind: Option<Spanned<String>>,
+    pub kind: Option<Text>,
     /// Inputs, in file order.
     pub inputs: Vec<InputEntry>,
     /// Parameters, in file order.
@@ -72,18 +99,18 @@ pub struct PassEntry {
 #[derive(Debug, Clone)]
 pub struct InputEntry {
     /// Name of the input.
-    pub name: Spanned<String>,
+    pub name: Text,
     /// `pass.port`; `None` where something else stands there, which has been reported.
-    pub from: Option<Spanned<String>>,
+    pub from: Option<Text>,
 }
 
 /// An output of the graph.
 #[derive(Debug, Clone)]
 pub struct OutputEntry {
     /// Name of the output.
-    pub name: Spanned<String>,
+    pub name: Text,
     /// `pass.port`.
-    pub from: Spanned<String>,
+    pub from: Text,
 }
 
 /// What `enabled` says.
@@ -100,31 +127,56 @@ pub enum Switch {
 /// Gives `None` only where the text is too broken to say anything more about it.
 pub fn read(source: &Arc<Source>, out: &mut Diagnostics) -> Option<GraphFile> {
     let mut found = Diagnostics::default();
-    let file = parse(source, &mut found).and_then(|root| graph(source, &root, &mut found));
+    let file = parse(source, &mut found).and_then(|root| graph(source, root, &mut found));
     let broken = found.has_errors();
     out.extend(found);
     file.map(|file| GraphFile { broken, ..file })
 }
 
-fn graph(source: &Arc<Source>, root: &Node, out: &mut Diagnostics) -> Option<GraphFile> {
+/// Takes the tree apart: texts move into the file, for they are most of it.
+fn graph(source: &Arc<Source>, mut root: Node, out: &mut Diagnostics) -> Option<GraphFile> {
     let mut decoder = Decoder { source, out };
-    let fields = decoder.fields(root, "a graph", GRAPH_FIELDS)?;
-    version(&mut decoder, &fields);
+    let whole = root.span;
+    let fields = open(&mut decoder, &mut root, "a graph", GRAPH_FIELDS, &["version", "passes", "outputs"])?;
+    if let Some(node) = field(fields, "version") {
+        version(&mut decoder, node);
+    }
     Some(GraphFile {
         source: source.clone(),
-        about: fields.get("about").and_then(|node| decoder.text(node)).unwrap_or_default().to_owned(),
-        scene: fields.get("scene").and_then(|node| spanned_text(&mut decoder, node)),
-        size: fields.get("size").and_then(|node| size(&mut decoder, node)),
-        params: fields.get("params").map(|node| graph_params(&mut decoder, node)).unwrap_or_default(),
-        passes: fields.required(&mut decoder, "passes").map(|node| passes(&mut decoder, node)).unwrap_or_default(),
-        outputs: fields.required(&mut decoder, "outputs").map(|node| outputs(&mut decoder, node)).unwrap_or_default(),
-        outputs_span: fields.get("outputs").map_or(root.span, |node| node.span),
+        about: field(fields, "about").and_then(|node| owned_text(&mut decoder, node)).unwrap_or_default(),
+        scene: field(fields, "scene").and_then(|node| scene(&mut decoder, node)),
+        size: field(fields, "size").and_then(|node| size(&mut decoder, node)),
+        params: field(fields, "params").map(|node| graph_params(&mut decoder, node)).unwrap_or_default(),
+        passes: field(fields, "passes").map(|node| passes(&mut decoder, node)).unwrap_or_default(),
+        outputs_span: field(fields, "outputs").map_or(whole, |node| node.span),
+        outputs: field(fields, "outputs").map(|node| outputs(&mut decoder, node)).unwrap_or_default(),
         broken: false,
     })
 }
 
-fn version(decoder: &mut Decoder<'_>, fields: &Fields<'_>) {
-    let Some(node) = fields.required(decoder, "version") else { return };
+/// The fields of a struct; what is unknown or missing is reported.
+fn open<'n>(
+    decoder: &mut Decoder<'_>,
+    node: &'n mut Node,
+    what: &str,
+    known: &[&str],
+    required: &[&str],
+) -> Option<&'n mut [Field]> {
+    let fields = decoder.fields(node, what, known)?;
+    for name in required {
+        fields.required(decoder, name);
+    }
+    match &mut node.value {
+        Value::Struct(fields) => Some(fields),
+        _ => Some(&mut []),
+    }
+}
+
+fn field<'n>(fields: &'n mut [Field], name: &str) -> Option<&'n mut Node> {
+    fields.iter_mut().find(|field| field.name == name).map(|field| &mut field.value)
+}
+
+fn version(decoder: &mut Decoder<'_>, node: &Node) {
     let Some(version) = decoder.integer(node) else { return };
     let (code, message, suggestion) = if version > VERSION {
         let message = format!("this file has version {version}, and this program reads up to {VERSION}");
@@ -136,6 +188,11 @@ fn version(decoder: &mut Decoder<'_>, fields: &Fields<'_>) {
     };
     let place = decoder.place(node.span);
     decoder.report(Diagnostic::error(code, place, message).suggest(suggestion));
+}
+
+fn scene(decoder: &mut Decoder<'_>, node: &mut Node) -> Option<Spanned<String>> {
+    let value = owned_text(decoder, node)?;
+    Some(Spanned { value, span: node.span })
 }
 
 fn size(decoder: &mut Decoder<'_>, node: &Node) -> Option<Spanned<(u32, u32)>> {
@@ -165,60 +222,95 @@ fn extent(decoder: &mut Decoder<'_>, node: &Node) -> Option<u32> {
     }
 }
 
-fn graph_params(decoder: &mut Decoder<'_>, node: &Node) -> Vec<ParamEntry> {
-    let entries = params(decoder, node);
-    for entry in &entries {
-        check_name(decoder, &entry.name.value, entry.name.span);
+fn graph_params(decoder: &mut Decoder<'_>, node: &mut Node) -> Vec<ParamEntry> {
+    params(decoder, node, check_name)
+}
+
+/// Parameters, whose names `check` looks at.
+fn params(decoder: &mut Decoder<'_>, node: &mut Node, check: fn(&mut Decoder<'_>, &str, Span)) -> Vec<ParamEntry> {
+    let mut params = Vec::new();
+    for (mut key, value) in entries(decoder, node) {
+        params.extend(named(decoder, &mut key, check).map(|name| ParamEntry { name, value }));
     }
-    entries
+    params
 }
 
-fn params(decoder: &mut Decoder<'_>, node: &Node) -> Vec<ParamEntry> {
-    let entry = |(name, span, value): (&str, Span, &Node)| ParamEntry {
-        name: Spanned { value: name.to_owned(), span },
-        value: value.clone(),
-    };
-    decoder.map(node).unwrap_or_default().into_iter().map(entry).collect()
+fn passes(decoder: &mut Decoder<'_>, node: &mut Node) -> Vec<PassEntry> {
+    let entries = entries(decoder, node);
+    let mut passes = Vec::with_capacity(entries.len());
+    for (mut key, mut value) in entries {
+        passes.extend(named(decoder, &mut key, check_name).map(|name| pass(decoder, name, &mut value)));
+    }
+    passes
 }
 
-fn passes(decoder: &mut Decoder<'_>, node: &Node) -> Vec<PassEntry> {
-    let entries = decoder.map(node).unwrap_or_default();
-    entries.into_iter().map(|(name, span, node)| pass(decoder, name, span, node)).collect()
-}
-
-fn pass(decoder: &mut Decoder<'_>, name: &str, span: Span, node: &Node) -> PassEntry {
-    let name = named(decoder, name, span);
+fn pass(decoder: &mut Decoder<'_>, name: Text, node: &mut Node) -> PassEntry {
     let mut entry = PassEntry { name, kind: None, inputs: Vec::new(), params: Vec::new(), enabled: None };
-    let Some(fields) = decoder.fields(node, "a pass", PASS_FIELDS) else { return entry };
-    entry.kind = fields.required(decoder, "use").and_then(|node| spanned_text(decoder, node));
-    if let Some(node) = fields.get("inputs") {
-        entry.inputs = references(decoder, node).into_iter().map(|(name, from)| InputEntry { name, from }).collect();
+    let Some(fields) = open(decoder, node, "a pass", PASS_FIELDS, &["use"]) else { return entry };
+    entry.kind = field(fields, "use").and_then(|node| text(decoder, node));
+    if let Some(node) = field(fields, "inputs") {
+        entry.inputs = inputs(decoder, node);
     }
-    if let Some(node) = fields.get("params") {
-        entry.params = params(decoder, node);
+    if let Some(node) = field(fields, "params") {
+        entry.params = params(decoder, node, any_name);
     }
-    entry.enabled = fields.get("enabled").and_then(|node| switch(decoder, node));
+    entry.enabled = field(fields, "enabled").and_then(|node| switch(decoder, node));
     entry
 }
 
-fn outputs(decoder: &mut Decoder<'_>, node: &Node) -> Vec<OutputEntry> {
+fn inputs(decoder: &mut Decoder<'_>, node: &mut Node) -> Vec<InputEntry> {
+    let entries = entries(decoder, node);
+    let mut inputs = Vec::with_capacity(entries.len());
+    for (mut key, mut value) in entries {
+        let Some(name) = text(decoder, &mut key) else { continue };
+        inputs.push(InputEntry { name, from: text(decoder, &mut value) });
+    }
+    inputs
+}
+
+fn outputs(decoder: &mut Decoder<'_>, node: &mut Node) -> Vec<OutputEntry> {
     let mut outputs = Vec::new();
-    for (name, from) in references(decoder, node) {
-        let name = named(decoder, &name.value, name.span);
-        outputs.extend(from.map(|from| OutputEntry { name, from }));
+    for (mut key, mut value) in entries(decoder, node) {
+        let Some(name) = named(decoder, &mut key, check_name) else { continue };
+        outputs.extend(text(decoder, &mut value).map(|from| OutputEntry { name, from }));
     }
     outputs
 }
 
-/// A map from names to `pass.port`.
-fn references(decoder: &mut Decoder<'_>, node: &Node) -> Vec<(Spanned<String>, Option<Spanned<String>>)> {
-    let entries = decoder.map(node).unwrap_or_default();
-    let entry = |(name, span, value): (&str, Span, &Node)| {
-        let from = spanned_text(decoder, value);
-        (Spanned { value: name.to_owned(), span }, from)
-    };
-    entries.into_iter().map(entry).collect()
+/// Takes the entries out of a map.
+fn entries(decoder: &mut Decoder<'_>, node: &mut Node) -> Vec<(Node, Node)> {
+    if let Value::Map(entries) = &mut node.value {
+        return std::mem::take(entries);
+    }
+    // Reports that it is none.
+    decoder.map(node);
+    Vec::new()
 }
+
+/// A text.
+fn text(decoder: &mut Decoder<'_>, node: &mut Node) -> Option<Text> {
+    named(decoder, node, any_name)
+}
+
+/// A text that is a name, which `check` looks at.
+fn named(decoder: &mut Decoder<'_>, node: &mut Node, check: fn(&mut Decoder<'_>, &str, Span)) -> Option<Text> {
+    let text = owned_text(decoder, node)?;
+    check(decoder, &text, node.span);
+    Some(Text::new(decoder.source, node.span, text))
+}
+
+/// Takes a text out of its node.
+fn owned_text(decoder: &mut Decoder<'_>, node: &mut Node) -> Option<String> {
+    if let Value::Text(text) = &mut node.value {
+        return Some(std::mem::take(text));
+    }
+    // Reports that it is none.
+    decoder.text(node);
+    None
+}
+
+/// The name of something that is looked up elsewhere.
+fn any_name(_: &mut Decoder<'_>, _: &str, _: Span) {}
 
 fn switch(decoder: &mut Decoder<'_>, node: &Node) -> Option<Spanned<Switch>> {
     let value = match &node.value {
@@ -226,17 +318,6 @@ fn switch(decoder: &mut Decoder<'_>, node: &Node) -> Option<Spanned<Switch>> {
         _ => Switch::Fixed(decoder.bool(node)?),
     };
     Some(Spanned { value, span: node.span })
-}
-
-fn spanned_text(decoder: &mut Decoder<'_>, node: &Node) -> Option<Spanned<String>> {
-    let value = decoder.text(node)?.to_owned();
-    Some(Spanned { value, span: node.span })
-}
-
-/// A name that the file gives to something of its own.
-fn named(decoder: &mut Decoder<'_>, name: &str, span: Span) -> Spanned<String> {
-    check_name(decoder, name, span);
-    Spanned { value: name.to_owned(), span }
 }
 
 fn check_name(decoder: &mut Decoder<'_>, name: &str, span: Span) {

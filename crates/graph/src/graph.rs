@@ -9,6 +9,7 @@ use tyndall_document::{Diagnostic, Place, Source, Span, near};
 use crate::catalogue::Kind;
 use crate::codes;
 use crate::descriptor::{ParamValue, PassDescriptor, PortDescriptor};
+use crate::names::Names;
 use crate::table::Table;
 
 /// A typed graph: passes joined by connections between their ports, as the file has them.
@@ -30,7 +31,7 @@ pub struct Graph {
     pub passes: DiGraph<Pass, Connection>,
     /// Outputs in file order.
     pub outputs: Vec<(String, PortRef)>,
-    pub(crate) names: FxHashMap<String, u32>,
+    pub(crate) names: Names,
     /// Where the parameters that set sizes are set; of one that is not, its pass.
     pub(crate) size_param_places: FxHashMap<ParamRef, Place>,
     pub(crate) table: Table,
@@ -121,7 +122,7 @@ impl Graph {
 
     /// Index of the pass of this name.
     pub fn pass_named(&self, name: &str) -> Option<u32> {
-        self.names.get(name).copied()
+        self.names.find(name, |pass| self.pass(pass).name == name)
     }
 
     /// What the pass declares about this port.
@@ -150,7 +151,8 @@ impl Graph {
         match descriptor.ports.iter().position(|port| port.name == port_name) {
             Some(port) if descriptor.ports[port].role.is_output() => Ok(PortRef { pass, port: port as u32 }),
             Some(_) => {
-                let message = format!("`{port_name}` is an input of `{}`, and nothing can be read from it", descriptor.name);
+                let message =
+                    format!("`{port_name}` is an input of `{}`, and nothing can be read from it", descriptor.name);
                 Err(Diagnostic::error(codes::NOT_AN_OUTPUT, place, message))
             }
             None => {
@@ -179,7 +181,12 @@ impl Graph {
     /// where the name is unknown.
     pub fn find_params(&self, name: &str) -> Vec<ParamRef> {
         let Some((pass, param)) = name.split_once('.') else {
-            return self.params.iter().find(|param| param.name == name).map(|param| param.uses.clone()).unwrap_or_default();
+            return self
+                .params
+                .iter()
+                .find(|param| param.name == name)
+                .map(|param| param.uses.clone())
+                .unwrap_or_default();
         };
         let found = self.pass_named(pass).and_then(|pass| {
             let param = self.pass(pass).descriptor().params.iter().position(|descriptor| descriptor.name == param)?;

@@ -18,6 +18,7 @@ pub mod descriptor;
 mod explain;
 mod file;
 mod graph;
+mod names;
 mod overrides;
 mod plan;
 pub mod show;
@@ -28,12 +29,12 @@ mod validate;
 pub use catalogue::Catalogue;
 pub use codes::CODES;
 pub use explain::explain;
-pub use file::{GraphFile, InputEntry, OutputEntry, ParamEntry, PassEntry, Spanned, Switch, read};
+pub use file::{GraphFile, InputEntry, OutputEntry, ParamEntry, PassEntry, Spanned, Switch, Text, read};
 pub use graph::{Connection, Graph, GraphParam, ParamRef, ParamSetting, Pass, PortRef};
 pub use overrides::{Override, Overrides};
 pub use plan::{
-    Bytes, ClassBytes, CullReason, Culled, Keep, Order, Plan, PlanOptions, PlannedPass, PlannedPort, Resource, Roots, Slot,
-    SlotKind, Step, Usages, plan,
+    Bytes, ClassBytes, CullReason, Culled, Keep, Order, Plan, PlanOptions, PlannedPass, PlannedPort, Resource, Roots,
+    Slot, SlotKind, Step, Usages, plan,
 };
 pub use signature::DescriptorError;
 pub use validate::{validate, validate_with};

@@ -56,9 +56,16 @@ pub(crate) struct Flow {
 pub(crate) enum Shape {
     /// A mistake hides it.
     Unknown,
-    Texture { dimension: Dimension, format: Format },
-    Buffer { stride: u32 },
-    Value { bytes: u32 },
+    Texture {
+        dimension: Dimension,
+        format: Format,
+    },
+    Buffer {
+        stride: u32,
+    },
+    Value {
+        bytes: u32,
+    },
 }
 
 impl Flow {

@@ -1,5 +1,7 @@
 //! Every code has a fixture that pins its text and position, and mistakes come all at once, in order, each once.
 
+#![allow(clippy::unwrap_used, reason = "a test")]
+
 mod support;
 
 use std::path::Path;
@@ -7,8 +9,8 @@ use std::sync::Arc;
 
 use support::{catalogue, exists};
 use tyndall_document::{
-    Code, DUPLICATE_NAME, Diagnostics, MISSING_FIELD, MISSING_FILE, NOT_FINITE, Place, Source, UNKNOWN_FIELD, WRONG_TYPE,
-    fixture,
+    Code, DUPLICATE_NAME, Diagnostics, MISSING_FIELD, MISSING_FILE, NOT_FINITE, Place, Source, UNKNOWN_FIELD,
+    WRONG_TYPE, fixture,
 };
 use tyndall_graph::{CODES, Override, Overrides, PlanOptions, plan, read, validate_with};
 
@@ -21,7 +23,8 @@ fn mistakes(source: &Arc<Source>) -> Diagnostics {
     let mut out = Diagnostics::default();
     let mut overrides = Overrides::default();
     let (mut outputs, mut planned) = (Vec::new(), None);
-    let size = |text: &str| text.split_once('x').map(|(width, height)| (width.parse().unwrap(), height.parse().unwrap()));
+    let size =
+        |text: &str| text.split_once('x').map(|(width, height)| (width.parse().unwrap(), height.parse().unwrap()));
     for line in source.text().lines().map_while(|line| line.strip_prefix("// ")) {
         match line.split_once(' ').unwrap() {
             ("--set", text) => match Override::parse(text, line) {

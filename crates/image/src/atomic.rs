@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all.
 //!
-//! What is written goes to a temporary file in the folder of the target, is flushed to the disk, and takes the target's
-//! name last. So a reader sees the old file or the new one, and a failure leaves the old one as it was.
+//! What is written goes to a temporary file in the folder of the target, is flushed to the disk, and takes the
+//! target's name last. So a reader sees the old file or the new one, and a failure leaves the old one as it was.
 
 use std::fs::{File, Permissions};
 use std::io::{self, BufWriter, Seek, SeekFrom};
@@ -16,8 +16,9 @@ pub type Writer<'a> = BufWriter<&'a File>;
 
 /// Writes the file `path` by `write`, whole or not at all.
 ///
-/// Missing parent folders are made. A new file gets the usual permissions, an existing one keeps its own. A symbolic link
-/// keeps pointing at its target, which is replaced. A device or a pipe (`/dev/stdout`) is written to at the end.
+/// Missing parent folders are made. A new file gets the usual permissions, an existing one keeps its own. A
+/// symbolic link keeps pointing at its target, which is replaced. A device or a pipe (`/dev/stdout`) is written to
+/// at the end.
 ///
 /// # Errors
 /// If the path is a folder or may not be written (the user's fault), if the disk is full, or if `write` fails.

@@ -1,6 +1,7 @@
 //! OpenEXR in: R, G, B (A); Y; X, Y (Z); or a single channel of any name, of half, float or whole numbers.
 //!
-//! B44 and DWA compression are not read. Sizes are checked against the file's length before anything of that size is allocated.
+//! B44 and DWA compression are not read. Sizes are checked against the file's length before anything of that size
+//! is allocated.
 
 use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -55,8 +56,8 @@ fn decode_checked(bytes: &[u8]) -> Result<Image, String> {
     }
 }
 
-/// Whether the unpacker of the `exr` crate (1.74) withstands hostile data. That of B44 panics where arithmetic wraps around, and that
-/// of DWA allocates whatever the data say.
+/// Whether the unpacker of the `exr` crate (1.74) withstands hostile data. That of B44 panics where arithmetic
+/// wraps around, and that of DWA allocates whatever the data say.
 fn is_safe(compression: Compression) -> bool {
     use Compression as C;
     matches!(compression, C::Uncompressed | C::RLE | C::ZIP1 | C::ZIP16 | C::PIZ | C::PXR24)

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 /// Fewest `#` in a row that stand for a number: fewer are letters of somebody's name for a folder.
 const SHORTEST: usize = 4;
 
-/// The file of one frame: each `####` (or longer run of `#`) of the path is replaced by the frame's number, padded with
-/// zeros to the length of the run. A larger number is written whole. Other paths, and those that are not UTF-8, stay.
+/// The file of one frame: each `####` (or longer run of `#`) of the path is replaced by the frame's number, padded
+/// with zeros to the length of the run. A larger number is written whole. Other paths, and those that are not
+/// UTF-8, stay.
 pub fn frame_path(pattern: &Path, frame: u32) -> PathBuf {
     let Some(mut rest) = pattern.to_str() else { return pattern.to_owned() };
     let mut path = String::new();

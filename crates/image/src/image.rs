@@ -30,7 +30,8 @@ pub enum Meaning {
     Vector,
     /// Numbers of the pass's own: 1 channel is Y, 2 are X, Y, 3 are X, Y, Z and 4 are R, G, B, A in `.exr`.
     Data,
-    /// Colour that is already encoded as sRGB, for a screen. `.png` takes it as it is, `.exr` and `.hdr` get it linear.
+    /// Colour that is already encoded as sRGB, for a screen. `.png` takes it as it is, `.exr` and `.hdr` get it
+    /// linear.
     Display,
 }
 

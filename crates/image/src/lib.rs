@@ -1,13 +1,15 @@
 //! Images in memory and in files, and numbers that compare them.
 //!
 //! In memory an image is linear `f32` ([`Image`]); what its channels mean ([`Meaning`]) decides how a file names and
-//! encodes them. [`write()`] and [`read()`] choose the format by the suffix: `.exr` (32-bit float, linear), `.png` (8-bit
-//! sRGB), `.hdr` (RGBE) and `.npy` (float32, any shape). A file appears whole or not at all ([`write_atomically`]).
+//! encodes them. [`write()`] and [`read()`] choose the format by the suffix: `.exr` (32-bit float, linear), `.png`
+//! (8-bit sRGB), `.hdr` (RGBE) and `.npy` (float32, any shape). A file appears whole or not at all
+//! ([`write_atomically`]).
 //!
 //! Invariants: row 0 is the top; a reader never panics and never allocates much more than the file can fill;
 //! every error names its file.
 //!
-//! Not supported: deep, subsampled or multi-view EXR, B44 and DWA compression, mip levels other than the first, ICC profiles of PNG files.
+//! Not supported: deep, subsampled or multi-view EXR, B44 and DWA compression, mip levels other than the first, ICC
+//! profiles of PNG files.
 
 mod atomic;
 mod error;
@@ -57,8 +59,9 @@ pub fn write(path: &Path, image: &Image, meaning: Meaning) -> Result<(), Error> 
 
 /// Reads the image at `path`, in the format of the path's suffix, as linear numbers.
 ///
-/// `.png` is taken as sRGB (alpha as linear); the others are taken as they stand. An `.npy` file must have the shape (height, width),
-/// (height, width, channels) or (layers, height, width, channels), with 1 to 4 channels; [`read_array`] takes any.
+/// `.png` is taken as sRGB (alpha as linear); the others are taken as they stand. An `.npy` file must have the
+/// shape (height, width), (height, width, channels) or (layers, height, width, channels), with 1 to 4 channels;
+/// [`read_array`] takes any.
 ///
 /// # Errors
 /// An unknown suffix, a file that cannot be read, and content that is broken, truncated or larger than is taken.

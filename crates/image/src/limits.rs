@@ -15,7 +15,8 @@ const LARGEST_SIDE: u64 = 32_768;
 /// Most numbers of one image: 8192 × 8192 of four channels, 1 GiB.
 const MOST_NUMBERS: u64 = 1 << 28;
 
-/// Largest factor by which a file is taken to unpack. Deflate reaches 1032:1, and no other scheme of these formats more.
+/// Largest factor by which a file is taken to unpack. Deflate reaches 1032:1, and no other scheme of these formats
+/// more.
 const LARGEST_EXPANSION: u64 = 2_048;
 
 /// The whole of the file at `path`.

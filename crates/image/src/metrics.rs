@@ -71,8 +71,8 @@ pub fn differing_bits(image: &Image, reference: &Image) -> Result<usize, Incompa
 
 /// Root of the mean squared difference over the root of the mean square of the reference: √(Σ(a−b)² / Σb²).
 ///
-/// Infinities of the reference that the image has too are left out of both sums. 0 where all is equal, and infinity where the
-/// reference is black and the image is not.
+/// Infinities of the reference that the image has too are left out of both sums. 0 where all is equal, and infinity
+/// where the reference is black and the image is not.
 ///
 /// # Errors
 /// If the images are of different shape.
@@ -87,8 +87,8 @@ pub fn relative_rmse(image: &Image, reference: &Image) -> Result<f64, Incomparab
 
 /// Percentiles of |a−b| / max(|b|, `floor`).
 ///
-/// `floor` (> 0, in the unit of the images) keeps numbers that are dark beyond interest from deciding; `keep`, one per pixel in
-/// the order of the data, selects the pixels (all without it).
+/// `floor` (> 0, in the unit of the images) keeps numbers that are dark beyond interest from deciding; `keep`, one
+/// per pixel in the order of the data, selects the pixels (all without it).
 ///
 /// # Errors
 /// If the images are of different shape, `keep` has another number of pixels, or no pixel is left.

@@ -45,7 +45,8 @@ pub fn read_array(path: &Path) -> Result<Array, Error> {
     decode(&bytes).map_err(|message| Error::new(Kind::Input, path, message))
 }
 
-/// Shape (height, width) for a scalar, (height, width, channels) for a picture, (layers, height, width, channels) else.
+/// Shape (height, width) for a scalar, (height, width, channels) for a picture, (layers, height, width, channels)
+/// else.
 pub(crate) fn write_image(path: &Path, image: &Image, meaning: Meaning) -> Result<(), Error> {
     let kept = match meaning {
         Meaning::Scalar => 1,

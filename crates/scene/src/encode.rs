@@ -12,7 +12,16 @@ use crate::scene::Scene;
 
 /// The names of scene data, in the order of [`Encoded::items`].
 pub const SCENE_DATA: &[&str] = &[
-    "camera", "medium", "background", "lights", "vertices", "triangles", "objects", "materials", "textures", "texels",
+    "camera",
+    "medium",
+    "background",
+    "lights",
+    "vertices",
+    "triangles",
+    "objects",
+    "materials",
+    "textures",
+    "texels",
 ];
 
 const CAMERA: usize = 0;
@@ -201,7 +210,9 @@ fn texels(scene: &Scene) -> Vec<u8> {
     if scene.textures.is_empty() {
         return vec![0; 4];
     }
-    scene.textures.iter().flat_map(|t| cast_slice::<u32, u8>(&t.texels)).copied().collect()
+    let mut bytes = Vec::with_capacity(scene.textures.iter().map(|t| 4 * t.texels.len()).sum());
+    scene.textures.iter().for_each(|t| bytes.extend_from_slice(cast_slice(&t.texels)));
+    bytes
 }
 
 /// Header and elements; one zeroed element where there is none.

@@ -112,7 +112,7 @@ impl Default for Material {
 }
 
 /// What a texture coordinate outside 0..1 reads; the values are those of `WRAP_…` in `scene.wgsl`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub enum Wrap {
     /// The picture again.
     #[default]

@@ -127,13 +127,11 @@ fn set(node: &mut Node, path: &[Segment], value: Node) -> Result<(), String> {
             let empty = || Box::new(Node { span, value: Value::Unit });
             set(content.get_or_insert_with(empty), path, value)
         }
-        Value::List(items) | Value::Tuple(items) => {
-            match index.map(|index| (index, items.get_mut(index))) {
-                Some((_, Some(item))) => set(item, rest, value),
-                Some((index, None)) => Err(format!("there is no element {index} in {what}; they count from 0")),
-                None => Err(format!("`{name}` stands where the index of an element of {what} belongs")),
-            }
-        }
+        Value::List(items) | Value::Tuple(items) => match index.map(|index| (index, items.get_mut(index))) {
+            Some((_, Some(item))) => set(item, rest, value),
+            Some((index, None)) => Err(format!("there is no element {index} in {what}; they count from 0")),
+            None => Err(format!("`{name}` stands where the index of an element of {what} belongs")),
+        },
         Value::Unit | Value::Struct(_) if index.is_some() => {
             Err(format!("there is no element {name}: the scene file gives no list here"))
         }

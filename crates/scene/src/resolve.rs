@@ -28,13 +28,7 @@ struct Files<'a> {
 }
 
 /// The scene; `None` where a mistake leaves nothing to make of it. Every mistake is in `out`.
-pub(crate) fn scene(
-    draft: Draft,
-    merged: &Merged,
-    whole: Span,
-    folder: &Path,
-    out: &mut Diagnostics,
-) -> Option<Scene> {
+pub(crate) fn scene(draft: Draft, merged: &Merged, whole: Span, folder: &Path, out: &mut Diagnostics) -> Option<Scene> {
     let plain = draft.objects.iter().filter(|object| object.material.is_none());
     let plain = plain.filter_map(|object| match &object.mesh {
         MeshDraft::File(text, _) => Some(text.clone()),

@@ -140,7 +140,9 @@ impl Scene {
         let moves = match (&light.placement, light.kind) {
             (Placement::World { position, .. }, LightKind::Point) => position.varies(),
             (Placement::World { direction, .. }, LightKind::Directional) => direction.varies(),
-            (Placement::World { position, direction }, LightKind::Spot { .. }) => position.varies() || direction.varies(),
+            (Placement::World { position, direction }, LightKind::Spot { .. }) => {
+                position.varies() || direction.varies()
+            }
             (Placement::Node { object, node }, _) => self.node_moves(*object, Some(*node)),
         };
         moves || light.intensity.varies()

@@ -93,7 +93,9 @@ fn defaults() {
     assert!(items::<layout::Vertex>(&scene, "vertices").is_empty());
     assert!(items::<[u32; 4]>(&scene, "triangles").is_empty());
     assert!(scene.bounds(0.0).is_none());
-    let given = with_camera("medium: (extinction: (1, 2, 3)), lights: [Spot(position: (0, 0, 0), direction: (1, 0, 0), intensity: (1, 1, 1))]");
+    let given = with_camera(
+        "medium: (extinction: (1, 2, 3)), lights: [Spot(position: (0, 0, 0), direction: (1, 0, 0), intensity: (1, 1, 1))]",
+    );
     let medium: layout::Medium = view(&given, "medium");
     assert_eq!((medium.scattering, medium.phase, medium.rho1, medium.rho2), ([1.0, 2.0, 3.0], 0, 1.0, 1.0));
     let spot = items::<layout::Light>(&given, "lights")[0];
@@ -183,7 +185,8 @@ fn overrides_replace_and_add() {
 
 #[test]
 fn mistakes_in_overrides_name_the_argument() {
-    let text = format!("({CAMERA} lights: [Point(position: (0, 0, 0), intensity: (1, 1, 1))], medium: (albedo: (2, 0, 0)))");
+    let text =
+        format!("({CAMERA} lights: [Point(position: (0, 0, 0), intensity: (1, 1, 1))], medium: (albedo: (2, 0, 0)))");
     let told = |overrides: &[(&str, &str)]| {
         let errors = read_with(&text, overrides).expect_err("there are mistakes");
         let line = |d: &tyndall_document::Diagnostic| {
@@ -199,11 +202,14 @@ fn mistakes_in_overrides_name_the_argument() {
     let albedo = ("out-of-range", "2".to_owned(), None);
     assert_eq!(
         told(&[("medium.extincton", "(1, 1, 1)")]),
-        [albedo.clone(), (
-            "unknown-field",
-            "--set scene.medium.extincton=(1, 1, 1)".to_owned(),
-            Some("did you mean `extinction`?".to_owned())
-        )]
+        [
+            albedo.clone(),
+            (
+                "unknown-field",
+                "--set scene.medium.extincton=(1, 1, 1)".to_owned(),
+                Some("did you mean `extinction`?".to_owned())
+            )
+        ]
     );
     assert_eq!(
         told(&[("lights.3.intensity", "(1, 1, 1)")]),

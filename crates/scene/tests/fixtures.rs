@@ -44,7 +44,10 @@ fn mistakes_of_the_document_are_told() {
     assert_eq!(codes(&format!("({camera}, background: 3)")), ["wrong-type"]);
     assert_eq!(codes(&format!("({camera}, objects: [(mesh: File(\"nowhere.glb\"))])")), ["missing-file"]);
     assert_eq!(codes(&format!("({camera}, background: (0, 0, 0), background: (0, 0, 0))")), ["duplicate-name"]);
-    assert_eq!(codes(&format!("({camera}, lights: [Point(position: Keys([(NaN, (0, 0, 0))]), intensity: (1, 1, 1))])")), ["not-finite"]);
+    assert_eq!(
+        codes(&format!("({camera}, lights: [Point(position: Keys([(NaN, (0, 0, 0))]), intensity: (1, 1, 1))])")),
+        ["not-finite"]
+    );
     assert_eq!(codes("(camera: (position: (0, 0, 1)))"), ["missing-field"]);
 }
 
@@ -60,8 +63,16 @@ fn all_mistakes_at_once() {
     let diagnostics = run(&Source::new("test.scene.ron", text));
     let told: Vec<_> = diagnostics.iter().map(|d| d.code.0).collect();
     let expected = [
-        "camera-on-target", "out-of-range", "out-of-range", "out-of-range", "zero-direction", "out-of-range",
-        "out-of-range", "out-of-range", "out-of-range", "out-of-range",
+        "camera-on-target",
+        "out-of-range",
+        "out-of-range",
+        "out-of-range",
+        "zero-direction",
+        "out-of-range",
+        "out-of-range",
+        "out-of-range",
+        "out-of-range",
+        "out-of-range",
     ];
     assert_eq!(told, expected);
 }

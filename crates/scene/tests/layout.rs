@@ -62,9 +62,18 @@ fn constants_match_the_shader() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shaders/scene.wgsl");
     let source = std::fs::read_to_string(path).expect("shaders/scene.wgsl");
     for constant in [
-        "ISOTROPIC: u32 = 0u", "HENYEY_GREENSTEIN: u32 = 1u", "DOUBLE_HENYEY_GREENSTEIN: u32 = 2u",
-        "SCHLICK: u32 = 3u", "RAYLEIGH: u32 = 4u", "CORNETTE_SHANKS: u32 = 5u", "POINT: u32 = 0u", "SPOT: u32 = 1u",
-        "DIRECTIONAL: u32 = 2u", "NO_TEXTURE: u32 = 0xffffffffu", "WRAP_REPEAT: u32 = 0u", "WRAP_CLAMP: u32 = 1u",
+        "ISOTROPIC: u32 = 0u",
+        "HENYEY_GREENSTEIN: u32 = 1u",
+        "DOUBLE_HENYEY_GREENSTEIN: u32 = 2u",
+        "SCHLICK: u32 = 3u",
+        "RAYLEIGH: u32 = 4u",
+        "CORNETTE_SHANKS: u32 = 5u",
+        "POINT: u32 = 0u",
+        "SPOT: u32 = 1u",
+        "DIRECTIONAL: u32 = 2u",
+        "NO_TEXTURE: u32 = 0xffffffffu",
+        "WRAP_REPEAT: u32 = 0u",
+        "WRAP_CLAMP: u32 = 1u",
         "WRAP_MIRROR: u32 = 2u",
     ] {
         assert!(source.contains(&format!("const {constant};")), "{constant}");

@@ -38,7 +38,7 @@ fn the_model_is_sound() {
     assert_eq!(scene.lights.iter().filter(|l| l.kind == LightKind::Point).count(), 5);
     assert_eq!(scene.lights.len(), 6);
     let frame = scene.at(0.0);
-    assert!((frame.camera.position - glam::DVec3::new(4.4, 1.7, 10.2)).length() < 1e-6);
+    assert!((frame.camera.position - glam::DVec3::new(-3.1, 1.65, 11.2)).length() < 1e-6);
     assert!(frame.camera.up.y > 0.9 && frame.camera.right.y.abs() < 1e-6);
     assert!(frame.lights.iter().all(|l| l.position.y > 2.0));
     // Every solid is closed and wound outward: the shadow volumes to come depend on it.

@@ -9,3 +9,18 @@ pub fn guarded<T>(step: impl FnOnce() -> T) -> Result<T, String> {
         text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_else(|| "without a message".to_owned())
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_told() {
+        assert_eq!(guarded(|| 1), Ok(1));
+        assert_eq!(
+            guarded(|| -> u32 { panic!("entered {}", "unreachable code") }),
+            Err("entered unreachable code".into())
+        );
+        assert_eq!(guarded(|| -> u32 { panic!("plain") }), Err("plain".into()));
+    }
+}

@@ -4,6 +4,8 @@
 //! A fixture is linked with the shared modules of `fixtures/modules` and the plugin's files of `fixtures/files`, and
 //! where it links, held against the descriptor in `descriptor/mod.rs`.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

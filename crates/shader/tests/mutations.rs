@@ -1,6 +1,8 @@
 //! No text makes the linker panic, and every place that it reports lies in its file, between characters.
 //! `PROPTEST_CASES` sets how many texts are tried (256).
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
 

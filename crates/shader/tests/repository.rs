@@ -1,6 +1,8 @@
 //! Every shader of the repository links and is valid. A folder's `.wgsl` files are entry shaders where they have an
 //! entry point, and modules otherwise; a module is linked by importing it into an empty shader.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 

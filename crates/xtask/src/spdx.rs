@@ -1,9 +1,10 @@
 //! Licence expressions (SPDX), as far as `Cargo.toml` files use them.
 //!
-//! `expression = all { "OR" all }`, `all = one { "AND" one }`, `one = "(" expression ")" | id [ "WITH" exception ]`; a slash
-//! between two names is the old way to write OR.
+//! `expression = all { "OR" all }`, `all = one { "AND" one }`, `one = "(" expression ")" | id [ "WITH" exception
+//! ]`; a slash between two names is the old way to write OR.
 
-/// Whether the expression can be met by licences that `allowed` accepts (an id, with ` WITH exception` if it has one).
+/// Whether the expression can be met by licences that `allowed` accepts (an id, with ` WITH exception` if it has
+/// one).
 ///
 /// # Errors
 /// If the expression is malformed.

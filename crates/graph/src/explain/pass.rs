@@ -152,10 +152,13 @@ fn changes(plan: &Plan, position: u32) -> Vec<String> {
         let writer = plan.ports[**source as usize].pass;
         writer.is_some_and(|writer| plan.passes[writer as usize].volatile)
     });
-    let mut names: Vec<String> = changing.map(|source| format!("it reads {}, which changes", plan.port_name(*source))).collect();
+    let mut names: Vec<String> =
+        changing.map(|source| format!("it reads {}, which changes", plan.port_name(*source))).collect();
     names.dedup();
     if names.is_empty() {
-        names.push("its parameters, its scene data, its history or its side effect change from frame to frame".to_owned());
+        names.push(
+            "its parameters, its scene data, its history or its side effect change from frame to frame".to_owned(),
+        );
     }
     names
 }
@@ -190,7 +193,9 @@ fn parameters(graph: &Graph, pass: u32) -> Vec<String> {
             match (setting, graph.params.iter().find(uses)) {
                 (ParamSetting::Frame, _) => format!("{} = $frame", param.name),
                 (ParamSetting::Time, _) => format!("{} = $time", param.name),
-                (ParamSetting::Value(value), Some(given)) => format!("{} = {value}{unit}, from ${}", param.name, given.name),
+                (ParamSetting::Value(value), Some(given)) => {
+                    format!("{} = {value}{unit}, from ${}", param.name, given.name)
+                }
                 (ParamSetting::Value(value), None) if *value == param.default => {
                     format!("{} = {value}{unit}, the default", param.name)
                 }

@@ -100,8 +100,11 @@ fn in_place_words(plan: &Plan, port: PortRef, source: u32) -> String {
     }
     let old = &plan.ports[source as usize];
     let position = planned.pass.unwrap_or(0);
-    let later: Vec<&str> =
-        readers(plan)[source as usize].iter().filter(|reader| **reader > position).map(|reader| plan.pass_name(*reader)).collect();
+    let later: Vec<&str> = readers(plan)[source as usize]
+        .iter()
+        .filter(|reader| **reader > position)
+        .map(|reader| plan.pass_name(*reader))
+        .collect();
     let why = match old {
         PlannedPort { root: true, .. } => "the old version was asked for".to_owned(),
         PlannedPort { carried: true, .. } => "the old version is carried to the next frame".to_owned(),
@@ -152,7 +155,8 @@ fn lifetime(plan: &Plan, planned: u32) -> String {
     let port = &plan.ports[planned as usize];
     let Some(writer) = port.pass else { return "always: it is a constant".to_owned() };
     let readers = &readers(plan)[planned as usize];
-    let names: Vec<String> = readers.iter().map(|reader| format!("{} at {}", plan.pass_name(*reader), reader + 1)).collect();
+    let names: Vec<String> =
+        readers.iter().map(|reader| format!("{} at {}", plan.pass_name(*reader), reader + 1)).collect();
     let read = if names.is_empty() { "read by no pass".to_owned() } else { format!("read by {}", names.join(", ")) };
     let end = match port {
         PlannedPort { root: true, .. } => "; it stays to the end of the frame, because it was asked for",
@@ -182,14 +186,17 @@ fn alone(plan: &Plan, port: &PlannedPort) -> String {
     if slot.kind == SlotKind::Kept {
         return "none: its content is kept across frames".to_owned();
     }
-    let equal = |other: &&PlannedPort| plan.slots[other.slot as usize].resource == slot.resource && other.port != port.port;
+    let equal =
+        |other: &&PlannedPort| plan.slots[other.slot as usize].resource == slot.resource && other.port != port.port;
     let equals = plan.ports.iter().filter(equal).count();
     match equals {
         0 => format!("none: no other port is {}", slot.resource),
         _ => {
-            let overlap = plan.ports.iter().filter(equal).all(|other| {
-                other.lifetime.0 <= port.lifetime.1 && port.lifetime.0 <= other.lifetime.1
-            });
+            let overlap = plan
+                .ports
+                .iter()
+                .filter(equal)
+                .all(|other| other.lifetime.0 <= port.lifetime.1 && port.lifetime.0 <= other.lifetime.1);
             match overlap {
                 true => format!("none: all {equals} other ports of the same resource are alive at the same time"),
                 false => format!("none: the other ports of the same resource ({equals}) found room in other slots"),

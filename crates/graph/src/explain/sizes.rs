@@ -50,7 +50,8 @@ impl Chain<'_> {
         self.lines.push(format!("{name} is {size}: {}", self.rule_words(port.pass, &rule)));
         for extent in [&rule.width, &rule.height, &rule.depth] {
             if let Extent::Port { port: named, .. } = extent
-                && let Some(index) = graph.pass(port.pass).descriptor().ports.iter().position(|other| other.name == *named)
+                && let Some(index) =
+                    graph.pass(port.pass).descriptor().ports.iter().position(|other| other.name == *named)
             {
                 self.tell(PortRef { pass: port.pass, port: index as u32 });
             }

@@ -29,8 +29,10 @@ pub fn plan(graph: &Arc<Graph>, options: &PlanOptions) -> Result<Plan, Vec<Diagn
     let mut draft = Draft::new(table, &order, &needed, &roots);
     draft.keep(graph, &options.keep);
     let keep = matches!(options.keep, Keep::Edges { .. });
-    let chosen = assign(table, &sizes, &draft, Policy { share: options.share, keep });
-    let plain = (!options.share || keep).then(|| assign(table, &sizes, &draft, Policy { share: true, keep: false }));
+    let ports = std::mem::take(&mut draft.ports);
+    let plain = (!options.share || keep)
+        .then(|| assign(table, &sizes, &draft, ports.clone(), Policy { share: true, keep: false }));
+    let chosen = assign(table, &sizes, &draft, ports, Policy { share: options.share, keep });
     let bytes = bytes(&chosen, plain.as_ref().unwrap_or(&chosen));
     let mut plan = Plan {
         graph: graph.clone(),

@@ -39,8 +39,8 @@ pub(super) fn needed(table: &Table, roots: &[PortRef]) -> Vec<bool> {
     let source = |feed: Feed| feed.as_port().map(|port| table.pass_of[port as usize]);
     let asked = roots.iter().filter_map(|root| source(table.out_of(table.port(root.pass, root.port))));
     let effects: Vec<bool> = table.kinds.iter().map(|kind| kind.descriptor.side_effect).collect();
-    let acting =
-        (0..table.passes()).filter(|pass| effects[table.kind_of[*pass as usize] as usize] && table.enabled[*pass as usize]);
+    let acting = (0..table.passes())
+        .filter(|pass| effects[table.kind_of[*pass as usize] as usize] && table.enabled[*pass as usize]);
     for pass in asked.chain(acting) {
         want(pass, &mut stack);
     }

@@ -101,7 +101,9 @@ impl Draft {
             .iter()
             .map(|kind| {
                 let history = kind.signature.ports.iter().any(|port| port.role == RoleKind::History);
-                history || kind.descriptor.side_effect || kind.descriptor.scene.iter().any(|data| animated.contains(data))
+                history
+                    || kind.descriptor.side_effect
+                    || kind.descriptor.scene.iter().any(|data| animated.contains(data))
             })
             .collect();
         for position in 0..self.passes.len() {
@@ -115,7 +117,8 @@ impl Draft {
         }
         for port in 0..self.ports.len() as u32 {
             let outlives = self.ports[port as usize].root || self.ports[port as usize].carried;
-            self.ports[port as usize].kept = outlives && !self.is_volatile(port) && self.ports[port as usize].pass.is_some();
+            self.ports[port as usize].kept =
+                outlives && !self.is_volatile(port) && self.ports[port as usize].pass.is_some();
         }
         for position in 0..self.passes.len() {
             let pass = self.passes[position];

@@ -281,8 +281,6 @@ impl Plan {
     /// The ports that a slot holds one after the other, in order; none of a constant slot that stands for no port.
     pub fn ports_in(&self, slot: u32) -> impl Iterator<Item = u32> + '_ {
         let first = Some(self.slots[slot as usize].first_port).filter(|port| *port != NONE);
-        std::iter::successors(first, |port| {
-            Some(self.ports[*port as usize].next_in_slot).filter(|port| *port != NONE)
-        })
+        std::iter::successors(first, |port| Some(self.ports[*port as usize].next_in_slot).filter(|port| *port != NONE))
     }
 }

@@ -55,7 +55,9 @@ impl fmt::Display for Resource {
                     Dimension::D3 => write!(f, "×{depth_or_layers}"),
                 }
             }
-            Resource::Buffer { bytes, stride } => write!(f, "buffer of {} × {stride} B", bytes / u64::from(stride.max(1))),
+            Resource::Buffer { bytes, stride } => {
+                write!(f, "buffer of {} × {stride} B", bytes / u64::from(stride.max(1)))
+            }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! How large every port is.
 
 use crate::graph::Graph;
-use crate::signature::{Amount, FRAME, RoleKind, Signature};
+use crate::signature::{Amount, RoleKind, Rule, Signature};
 use crate::table::{Feed, Table};
 
 /// Width, height, depth or layers. All 0: a mistake hides it.
@@ -66,7 +66,7 @@ impl Resolver<'_> {
                 Some(_) => {}
             }
         }
-        let rule = of_port.rule.as_ref().unwrap_or(&FRAME);
+        let rule = of_port.rule.as_ref().unwrap_or(&Rule::Frame);
         self.evaluate(pass, first, rule, of_port.axes)
     }
 
@@ -84,20 +84,28 @@ impl Resolver<'_> {
 
     fn demand(&mut self, table: &Table, pass: u32, port: u32, index: u32) {
         let of_port = &table.kind(pass).signature.ports[index as usize];
-        let (Some(rule), axes) = (of_port.rule.as_ref(), of_port.axes as usize) else { return };
+        let (Some(rule), axes) = (of_port.rule.as_ref(), of_port.axes) else { return };
         let fed = self.sizes[port as usize];
         if fed == UNKNOWN || self.feeds[port as usize].number() == Some(port) {
             return;
         }
-        let demanded = self.evaluate(pass, table.first_port[pass as usize], rule, of_port.axes);
-        if demanded != UNKNOWN && demanded[..axes] != fed[..axes] {
+        let demanded = self.evaluate(pass, table.first_port[pass as usize], rule, axes);
+        if demanded != UNKNOWN && demanded != cut(fed, axes) {
             self.problems.push(SizeProblem::Differs { port, fed, demanded });
         }
     }
 
-    fn evaluate(&mut self, pass: u32, first: u32, rule: &[Amount; 3], axes: u32) -> Size {
+    fn evaluate(&mut self, pass: u32, first: u32, rule: &Rule, axes: u32) -> Size {
+        match rule {
+            Rule::Frame => cut([self.frame.0, self.frame.1, 1], axes),
+            Rule::Same(other) => cut(self.sizes[(first + other) as usize], axes),
+            Rule::Other(amounts) => self.amounts(pass, first, amounts, axes),
+        }
+    }
+
+    fn amounts(&mut self, pass: u32, first: u32, amounts: &[Amount; 3], axes: u32) -> Size {
         let mut size = [1; 3];
-        for (extent, amount) in size.iter_mut().zip(rule).take(axes as usize) {
+        for (extent, amount) in size.iter_mut().zip(amounts).take(axes as usize) {
             *extent = match *amount {
                 Amount::Fixed(texels) => texels,
                 Amount::Frame(axis, scale) => scaled([self.frame.0, self.frame.1, 1][axis], scale),
@@ -124,6 +132,20 @@ impl Resolver<'_> {
             }
             1
         })
+    }
+}
+
+/// The extents that mean something, and 1 in place of the others.
+fn cut(size: Size, axes: u32) -> Size {
+    if size == UNKNOWN {
+        return UNKNOWN;
+    }
+    let [width, height, depth] = size;
+    match axes {
+        0 => [1; 3],
+        1 => [width, 1, 1],
+        2 => [width, height, 1],
+        _ => [width, height, depth],
     }
 }
 

@@ -31,8 +31,13 @@ pub(super) struct Assignment {
 }
 
 /// Gives every port a slot.
-pub(super) fn assign(table: &Table, sizes: &[Size], draft: &Draft, policy: Policy) -> Assignment {
-    let ports = draft.ports.clone();
+pub(super) fn assign(
+    table: &Table,
+    sizes: &[Size],
+    draft: &Draft,
+    ports: Vec<PlannedPort>,
+    policy: Policy,
+) -> Assignment {
     let mut scan = Scan::new(table, sizes, draft, policy, ports);
     for position in 0..draft.passes.len() as u32 {
         scan.pass(position);
@@ -61,6 +66,9 @@ struct Scan<'a> {
     sources: Vec<Option<u32>>,
     classes: Vec<ClassBytes>,
     class_of: FxHashMap<Resource, u32>,
+    /// By kind of pass the first of its ports in `latest`; and by port of a kind its latest class, or constant slot.
+    first_of_kind: Vec<u32>,
+    latest: Vec<u32>,
     /// By class: a free slot; and by slot: the next free one of its class.
     free: Vec<u32>,
     next_free: Vec<u32>,
@@ -83,7 +91,13 @@ struct SlotState {
 
 impl<'a> Scan<'a> {
     fn new(table: &'a Table, sizes: &'a [Size], draft: &'a Draft, policy: Policy, ports: Vec<PlannedPort>) -> Self {
-        let bindings = draft.passes.len() * 6;
+        let mut kind_ports = 0;
+        let mut first_of_kind = Vec::with_capacity(table.kinds.len());
+        for kind in &table.kinds {
+            first_of_kind.push(kind_ports);
+            kind_ports += kind.signature.ports.len() as u32;
+        }
+        let bindings = table.pass_of.len();
         let mut scan = Self {
             table,
             sizes,
@@ -95,6 +109,8 @@ impl<'a> Scan<'a> {
             sources: Vec::with_capacity(bindings),
             classes: Vec::new(),
             class_of: FxHashMap::default(),
+            first_of_kind,
+            latest: vec![NONE; kind_ports as usize],
             free: Vec::new(),
             next_free: Vec::new(),
             state: Vec::new(),
@@ -162,7 +178,8 @@ impl<'a> Scan<'a> {
     fn written(&mut self, number: u32) -> u32 {
         let port = self.draft.planned[number as usize];
         let resource = self.resource(number);
-        let slot = self.allocate(port, resource);
+        let class = self.class_of_output(number, resource);
+        let slot = self.allocate(port, resource, class);
         self.hold(slot, port);
         slot
     }
@@ -174,7 +191,7 @@ impl<'a> Scan<'a> {
         if let Some(source) = source.filter(|source| self.may_change(*source, number, position)) {
             self.ports[port as usize].in_place = true;
             let resource = self.slots[from as usize].resource;
-            let class = self.class(resource);
+            let class = self.class_of_output(number, resource);
             self.classes[class as usize].ports += 1;
             self.hold(from, port);
             return (from, Some(source));
@@ -223,6 +240,19 @@ impl<'a> Scan<'a> {
         let index = number - self.table.first_port[pass as usize];
         let value = self.table.kind(pass).signature.ports[index as usize].constant;
         let resource = self.resource(number);
+        let latest = self.latest(number);
+        if let Some(slot) = self.slots.get(self.latest[latest] as usize)
+            && slot.resource == resource
+            && matches!(slot.kind, SlotKind::Constant(other) if other.map(f32::to_bits) == value.map(f32::to_bits))
+        {
+            return self.latest[latest];
+        }
+        let slot = self.constant_of(resource, value);
+        self.latest[latest] = slot;
+        slot
+    }
+
+    fn constant_of(&mut self, resource: Resource, value: [f32; 4]) -> u32 {
         let key = (resource, value.map(f32::to_bits));
         if let Some(slot) = self.constants.get(&key) {
             return *slot;
@@ -236,11 +266,31 @@ impl<'a> Scan<'a> {
     fn resource(&self, number: u32) -> Resource {
         let [width, height, depth_or_layers] = self.sizes[number as usize];
         match self.table.flows[number as usize].shape {
-            Shape::Texture { dimension, format } => Resource::Texture { dimension, format, width, height, depth_or_layers },
+            Shape::Texture { dimension, format } => {
+                Resource::Texture { dimension, format, width, height, depth_or_layers }
+            }
             Shape::Buffer { stride } => Resource::Buffer { bytes: u64::from(width) * u64::from(stride), stride },
             Shape::Value { bytes } => Resource::Buffer { bytes: u64::from(bytes), stride: bytes },
             Shape::Unknown => Resource::Buffer { bytes: 0, stride: 0 },
         }
+    }
+
+    /// Where the latest class or constant of a port's kind is remembered: most passes of a kind have the same sizes.
+    fn latest(&self, number: u32) -> usize {
+        let pass = self.table.pass_of[number as usize];
+        let kind = self.table.kind_of[pass as usize];
+        (self.first_of_kind[kind as usize] + number - self.table.first_port[pass as usize]) as usize
+    }
+
+    /// The class of what an output writes.
+    fn class_of_output(&mut self, number: u32, resource: Resource) -> u32 {
+        let latest = self.latest(number);
+        let class = self.latest[latest];
+        if self.classes.get(class as usize).is_some_and(|class| class.resource == resource) {
+            return class;
+        }
+        self.latest[latest] = self.class(resource);
+        self.latest[latest]
     }
 
     fn class(&mut self, resource: Resource) -> u32 {
@@ -253,8 +303,7 @@ impl<'a> Scan<'a> {
         class
     }
 
-    fn allocate(&mut self, port: u32, resource: Resource) -> u32 {
-        let class = self.class(resource);
+    fn allocate(&mut self, port: u32, resource: Resource, class: u32) -> u32 {
         self.classes[class as usize].ports += 1;
         if self.own.get(port as usize) == Some(&true) {
             return self.add(resource, SlotKind::Kept, class);

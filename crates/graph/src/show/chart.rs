@@ -85,7 +85,8 @@ impl Drawing<'_> {
                 continue;
             }
             let (text_x, text_y) = (x + 6.0, self.first_row - 8.0);
-            let turn = if slanted { format!(" transform=\"rotate(-40 {text_x:.1} {text_y:.1})\"") } else { String::new() };
+            let turn =
+                if slanted { format!(" transform=\"rotate(-40 {text_x:.1} {text_y:.1})\"") } else { String::new() };
             let _ = writeln!(
                 self.text,
                 "<line x1=\"{x:.1}\" y1=\"{:.1}\" x2=\"{x:.1}\" y2=\"{bottom:.1}\" stroke=\"#e2e8f0\"/>\

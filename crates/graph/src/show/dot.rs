@@ -20,7 +20,11 @@ pub fn dot(plan: &Plan) -> String {
                 writeln!(text, "  {} [label = \"{}  {}\\n{kind}\"];", quoted(&pass.name), position + 1, pass.name)
             }
             None => {
-                let culled = plan.culled.binary_search_by_key(&index, |culled| culled.pass).ok().map(|index| &plan.culled[index]);
+                let culled = plan
+                    .culled
+                    .binary_search_by_key(&index, |culled| culled.pass)
+                    .ok()
+                    .map(|index| &plan.culled[index]);
                 let why = culled.map(|culled| culled_words(plan, culled)).unwrap_or_default();
                 let style = "color = grey, fontcolor = grey, style = dashed";
                 let (name, label) = (quoted(&pass.name), format!("{}\\n{kind}", pass.name));

@@ -86,9 +86,7 @@ fn step(step: Step) -> Value {
 
 fn bytes(plan: &Plan) -> Value {
     let bytes = &plan.bytes;
-    let class = |class: &crate::plan::ClassBytes| {
-        json!({ "resource": resource(class.resource), "ports": class.ports, "slots": class.slots })
-    };
+    let class = |class: &crate::plan::ClassBytes| json!({ "resource": resource(class.resource), "ports": class.ports, "slots": class.slots });
     json!({
         "shared": bytes.shared,
         "unshared": bytes.unshared,

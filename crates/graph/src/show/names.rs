@@ -27,7 +27,11 @@ pub fn culled_words(plan: &Plan, culled: &Culled) -> String {
             let ports: Vec<&str> = pass.descriptor().outputs().map(|port| port.name.as_str()).collect();
             match ports.is_empty() {
                 true => "it writes nothing".to_owned(),
-                false => format!("nothing that was asked for ({}) reads any of its ports: {}", asked_for(plan), ports.join(", ")),
+                false => format!(
+                    "nothing that was asked for ({}) reads any of its ports: {}",
+                    asked_for(plan),
+                    ports.join(", ")
+                ),
             }
         }
     }

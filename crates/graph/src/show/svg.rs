@@ -169,9 +169,9 @@ fn draw_port(
     let descriptor = plan.graph.port(port);
     if role.is_input() {
         let y = place.y + line_middle(row(&plan.graph, port, false));
-        let unfed = plan.position(port.pass).is_some_and(|position| {
-            role == RoleKind::Optional && plan.sources(position)[port.port as usize].is_none()
-        });
+        let unfed = plan
+            .position(port.pass)
+            .is_some_and(|position| role == RoleKind::Optional && plan.sources(position)[port.port as usize].is_none());
         let ink = if unfed { faint } else { ink };
         let _ = writeln!(
             text,

@@ -36,7 +36,8 @@ fn write_order(text: &mut String, plan: &Plan) -> fmt::Result {
     for position in 0..plan.passes.len() as u32 {
         let (name, kind) = (plan.pass_name(position), &plan.descriptor(position).name);
         let once = if keeps && !plan.passes[position as usize].volatile { "  (once)" } else { "" };
-        let line = format!("{:>4}  {name:name_width$}  {kind:kind_width$}  {}{once}", position + 1, reads(plan, position));
+        let line =
+            format!("{:>4}  {name:name_width$}  {kind:kind_width$}  {}{once}", position + 1, reads(plan, position));
         writeln!(text, "{}", line.trim_end())?;
     }
     Ok(())
@@ -55,7 +56,11 @@ fn reads(plan: &Plan, position: u32) -> String {
             (RoleKind::Output, ..) => continue,
             (RoleKind::InOut, source, _) => {
                 let source = source.unwrap_or_else(|| "a constant".to_owned());
-                format!("{} {source} {}", port.name, if in_place(plan, position, index) { "in place" } else { "in a copy" })
+                format!(
+                    "{} {source} {}",
+                    port.name,
+                    if in_place(plan, position, index) { "in place" } else { "in a copy" }
+                )
             }
             (RoleKind::History, _, Some(SlotKind::History { of, .. })) => {
                 format!("{} ← {} of the frame before", port.name, plan.port_name(of))
@@ -95,7 +100,13 @@ fn write_memory(text: &mut String, plan: &Plan) -> fmt::Result {
     writeln!(text, "\nmemory  (● written, ○ read, ▶ to the end of the frame)")?;
     for (index, slot) in plan.slots.iter().enumerate().filter(|(_, slot)| shown(slot.kind)) {
         let kept = if slot.kind == SlotKind::Kept { ", kept across frames" } else { "" };
-        writeln!(text, "  slot {index}: {}, {}{kept}, {}", slot.resource, byte_words(slot.resource.bytes()), slot.usages)?;
+        writeln!(
+            text,
+            "  slot {index}: {}, {}{kept}, {}",
+            slot.resource,
+            byte_words(slot.resource.bytes()),
+            slot.usages
+        )?;
         for port in plan.ports_in(index as u32) {
             let chart = chart(plan, port, &readers[port as usize]);
             writeln!(text, "      {:width$}  {chart}", plan.port_name(port))?;
@@ -147,7 +158,9 @@ fn write_bytes(text: &mut String, plan: &Plan) -> fmt::Result {
     writeln!(text, "  transient, shared    {:>12}  {}", bytes.shared, byte_words(bytes.shared))?;
     writeln!(text, "  transient, unshared  {:>12}  {}", bytes.unshared, byte_words(bytes.unshared))?;
     writeln!(text, "  this plan            {:>12}  {}", bytes.allocated, byte_words(bytes.allocated))?;
-    let width = widest(bytes.classes.iter().map(|class| class.resource.to_string()).collect::<Vec<_>>().iter().map(String::as_str));
+    let width = widest(
+        bytes.classes.iter().map(|class| class.resource.to_string()).collect::<Vec<_>>().iter().map(String::as_str),
+    );
     for class in &bytes.classes {
         let resource = class.resource.to_string();
         writeln!(text, "    {resource:width$}  {} for {}", counted(class.slots, "slot"), counted(class.ports, "port"))?;

@@ -1,7 +1,5 @@
 //! Inputs of passes, and the ports that feed them.
 
-use std::sync::Arc;
-
 use petgraph::graph::NodeIndex;
 use tyndall_document::{Diagnostic, Span};
 
@@ -9,25 +7,27 @@ use super::Validator;
 use crate::catalogue::Kind;
 use crate::codes;
 use crate::descriptor::Role;
-use crate::file::{InputEntry, Spanned};
+use crate::file::{InputEntry, Text};
 use crate::graph::{Connection, PortRef};
 use crate::signature::RoleKind;
 use crate::table::Feed;
 
-impl Validator<'_> {
+impl<'a> Validator<'a> {
     /// Connects what the file feeds to a pass, and reports what it leaves out.
     pub(super) fn connect(&mut self, pass: u32) {
         let file = self.file;
         let entry = &file.passes[pass as usize];
         let kind = self.kind_of(pass);
         let known = self.is_known_pass(pass);
-        let mut named = vec![false; kind.signature.ports.len()];
+        let mut named = std::mem::take(&mut self.named);
+        named.clear();
+        named.resize(kind.signature.ports.len(), false);
         for input in &entry.inputs {
             let source = input.from.as_ref().and_then(|from| self.source(from));
             if !known {
                 continue;
             }
-            let Some(port) = self.input(&kind, input) else { continue };
+            let Some(port) = self.input(kind, input) else { continue };
             named[port as usize] = true;
             if let Some((from, span)) = source {
                 self.join(from, PortRef { pass, port }, kind.signature.ports[port as usize].role, span);
@@ -40,10 +40,11 @@ impl Validator<'_> {
                 _ if named[index] => {}
                 RoleKind::Optional => self.written[number as usize] = Feed::constant(number),
                 RoleKind::Input | RoleKind::History | RoleKind::InOut => {
-                    self.missing_input(&kind, index, &entry.name);
+                    self.missing_input(kind, index, &entry.name);
                 }
             }
         }
+        self.named = named;
     }
 
     fn join(&mut self, from: PortRef, to: PortRef, role: RoleKind, span: Span) {
@@ -58,9 +59,9 @@ impl Validator<'_> {
     }
 
     /// Index of the input that an entry names.
-    fn input(&mut self, kind: &Kind, input: &InputEntry) -> Option<u32> {
+    fn input(&mut self, kind: &'a Kind, input: &'a InputEntry) -> Option<u32> {
         let descriptor = &kind.descriptor;
-        let name = &input.name.value;
+        let name = self.file.text(&input.name);
         let found = descriptor.ports.iter().position(|port| port.name == *name);
         let place = self.place(input.name.span);
         match found {
@@ -84,12 +85,12 @@ impl Validator<'_> {
     }
 
     /// The port that `pass.port` means, and where it stands.
-    pub(super) fn source(&mut self, from: &Spanned<String>) -> Option<(PortRef, Span)> {
-        let Some((pass_name, port_name)) = from.value.split_once('.') else {
+    pub(super) fn source(&mut self, from: &'a Text) -> Option<(PortRef, Span)> {
+        let Some((pass_name, port_name)) = self.file.text(from).split_once('.') else {
             self.bad_reference(from);
             return None;
         };
-        let Some(pass) = self.names.get(pass_name).copied() else {
+        let Some(pass) = self.pass_named(pass_name) else {
             self.unknown_reference(from, pass_name, port_name);
             return None;
         };
@@ -99,38 +100,38 @@ impl Validator<'_> {
             Some(port) if ports[port].role.is_output() => Some((PortRef { pass, port: port as u32 }, from.span)),
             _ if !self.is_known_pass(pass) => None,
             found => {
-                self.no_output(from, pass, &kind, found.is_some());
+                self.no_output(from, pass, kind, found.is_some());
                 None
             }
         }
     }
 
-    fn bad_reference(&mut self, from: &Spanned<String>) {
-        let message = format!("`{}` names no port", from.value);
+    fn bad_reference(&mut self, from: &'a Text) {
+        let name = self.file.text(from);
+        let message = format!("`{name}` names no port");
         let place = self.place(from.span);
         let mut diagnostic = Diagnostic::error(codes::BAD_REFERENCE, place, message);
-        let pass = self.names.get(&from.value).map(|pass| self.kind_of(*pass));
-        let port = pass.as_ref().and_then(|kind| kind.descriptor.outputs().next());
+        let kind = self.pass_named(name).map(|pass| self.kind_of(pass));
+        let port = kind.and_then(|kind| kind.descriptor.outputs().next());
         diagnostic = diagnostic.suggest(match port {
-            Some(port) => format!("write pass.port: `{}.{}`", from.value, port.name),
+            Some(port) => format!("write pass.port: `{name}.{}`", port.name),
             None => "write pass.port".to_owned(),
         });
         self.report(diagnostic);
     }
 
-    fn unknown_reference(&mut self, from: &Spanned<String>, pass: &str, port: &str) {
+    fn unknown_reference(&mut self, from: &'a Text, pass: &str, port: &str) {
         let message = format!("there is no pass named `{pass}`");
         let place = self.place(from.span);
-        let file = self.file;
-        let names = file.passes.iter().map(|pass| pass.name.value.as_str());
+        let names = self.pass_names();
         self.report_unknown((codes::UNKNOWN_REFERENCE, place), message, pass, names, |near| format!("{near}.{port}"));
     }
 
-    fn no_output(&mut self, from: &Spanned<String>, pass: u32, kind: &Kind, is_input: bool) {
+    fn no_output(&mut self, from: &'a Text, pass: u32, kind: &'a Kind, is_input: bool) {
         let file = self.file;
         let entry = &file.passes[pass as usize];
-        let (pass_name, kind_name) = (&entry.name.value, &kind.descriptor.name);
-        let port = &from.value[pass_name.len() + 1..];
+        let (pass_name, kind_name) = (file.text(&entry.name), &kind.descriptor.name);
+        let port = &file.text(from)[pass_name.len() + 1..];
         let place = self.place(from.span);
         let outputs = kind.descriptor.outputs().map(|port| port.name.as_str());
         if is_input {
@@ -146,18 +147,21 @@ impl Validator<'_> {
         self.report_unknown((codes::UNKNOWN_PORT, place), message, port, outputs, |near| format!("{pass_name}.{near}"));
     }
 
-    fn missing_input(&mut self, kind: &Kind, port: usize, name: &Spanned<String>) {
+    fn missing_input(&mut self, kind: &Kind, port: usize, name: &Text) {
         let port = &kind.descriptor.ports[port];
-        let message = format!("`{}` needs the input `{}` of `{}`", name.value, port.name, kind.descriptor.name);
+        let message =
+            format!("`{}` needs the input `{}` of `{}`", self.file.text(name), port.name, kind.descriptor.name);
         let place = self.place(name.span);
         let suggestion = match &port.role {
-            Role::History(_) => format!("feed it with what it should hold of the frame before: \"{}\": \"pass.port\"", port.name),
+            Role::History(_) => {
+                format!("feed it with what it should hold of the frame before: \"{}\": \"pass.port\"", port.name)
+            }
             _ => format!("add \"{}\": \"pass.port\" to its inputs", port.name),
         };
         self.report(Diagnostic::error(codes::MISSING_INPUT, place, message).suggest(suggestion));
     }
 
-    pub(super) fn kind_of(&self, pass: u32) -> Arc<Kind> {
-        self.table.kinds[self.table.kind_of[pass as usize] as usize].clone()
+    pub(super) fn kind_of(&self, pass: u32) -> &'a Kind {
+        self.kinds[self.table.kind_of[pass as usize] as usize]
     }
 }

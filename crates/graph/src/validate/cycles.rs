@@ -1,11 +1,12 @@
 //! An order in which every pass stands behind those that it reads, and the loops that make one impossible.
 
 use std::collections::VecDeque;
+use std::collections::hash_map::Entry;
 
+use petgraph::Direction;
 use petgraph::algo::kosaraju_scc;
 use petgraph::graph::{EdgeIndex, NodeIndex};
 use petgraph::visit::{EdgeFiltered, EdgeRef};
-use petgraph::Direction;
 use rustc_hash::{FxHashMap, FxHashSet};
 use tyndall_document::Diagnostic;
 
@@ -62,7 +63,7 @@ impl Validator<'_> {
     /// The pass that must run before `pass`, because its port `number` reads it.
     fn read_by(&self, pass: u32, number: u32) -> Option<u32> {
         let index = number - self.table.first_port[pass as usize];
-        let role = self.table.kind(pass).signature.ports[index as usize].role;
+        let role = self.kind_of(pass).signature.ports[index as usize].role;
         let feed = self.written[number as usize].as_port()?;
         (role != RoleKind::History).then(|| self.table.pass_of[feed as usize])
     }
@@ -96,8 +97,8 @@ impl Validator<'_> {
                 if edge.source() == start {
                     return self.walk_back(edge.id(), start, &reached_by);
                 }
-                if !reached_by.contains_key(&edge.source()) {
-                    reached_by.insert(edge.source(), edge.id());
+                if let Entry::Vacant(vacant) = reached_by.entry(edge.source()) {
+                    vacant.insert(edge.id());
                     queue.push_back(edge.source());
                 }
             }
@@ -122,7 +123,7 @@ impl Validator<'_> {
 
     fn report_loop(&mut self, edges: &[EdgeIndex]) {
         let file = self.file;
-        let name = |pass: NodeIndex| file.passes[pass.index()].name.value.as_str();
+        let name = |pass: NodeIndex| file.text(&file.passes[pass.index()].name);
         let Some(first) = edges.iter().copied().min_by_key(|edge| self.passes[*edge].span.start) else { return };
         let Some((_, start)) = self.passes.edge_endpoints(first) else { return };
         let at = edges.iter().position(|edge| *edge == first).unwrap_or(0);
@@ -136,11 +137,18 @@ impl Validator<'_> {
             if index > 0 {
                 let kind = self.kind_of(reader.index() as u32);
                 let port = &kind.descriptor.ports[self.passes[*edge].to as usize].name;
-                let what = format!("`{}` reads `{}` as `{port}`", name(reader), file.source.slice(self.passes[*edge].span).trim_matches('"'));
+                let what = format!(
+                    "`{}` reads `{}` as `{port}`",
+                    name(reader),
+                    file.source.slice(self.passes[*edge].span).trim_matches('"')
+                );
                 diagnostic = diagnostic.relate(self.place(self.passes[*edge].span), what);
             }
         }
         diagnostic.message = waits;
-        self.report(diagnostic.suggest("break the loop at one of these connections, or read the frame before through a history port"));
+        self.report(
+            diagnostic
+                .suggest("break the loop at one of these connections, or read the frame before through a history port"),
+        );
     }
 }

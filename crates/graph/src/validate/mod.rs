@@ -11,6 +11,7 @@ mod settings;
 mod sizes;
 mod switches;
 mod types;
+mod values;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -19,10 +20,11 @@ use petgraph::graph::DiGraph;
 use rustc_hash::FxHashMap;
 use tyndall_document::{Code, Diagnostic, Diagnostics, MISSING_FILE, Place, Span, near};
 
-use crate::catalogue::Catalogue;
+use crate::catalogue::{Catalogue, Kind};
 use crate::codes;
 use crate::file::GraphFile;
 use crate::graph::{Connection, Graph, ParamRef, Pass, PortRef};
+use crate::names::Names;
 use crate::overrides::Overrides;
 use crate::table::{Feed, Table};
 
@@ -54,7 +56,8 @@ pub fn validate_with(
     exists: &dyn Fn(&Path) -> bool,
     out: &mut Diagnostics,
 ) -> Option<Arc<Graph>> {
-    let mut validator = Validator::new(file, catalogue, overrides, exists);
+    let unknown = names::unknown_kind();
+    let mut validator = Validator::new(file, catalogue, overrides, exists, &unknown);
     let graph = validator.graph();
     let sound = !file.broken && !validator.out.has_errors();
     if !validator.out.is_empty() {
@@ -72,13 +75,18 @@ struct Validator<'a> {
     exists: &'a dyn Fn(&Path) -> bool,
     out: Diagnostics,
     suggestions: u32,
-    names: FxHashMap<String, u32>,
+    names: Names,
+    /// The kind of a pass whose `use` names none.
+    unknown: &'a Arc<Kind>,
+    kinds: Vec<&'a Arc<Kind>>,
     params: Params<'a>,
     passes: DiGraph<Pass, Connection>,
     table: Table,
     /// By port: what flows into it if every pass were switched on.
     written: Vec<Feed>,
     size_param_places: FxHashMap<ParamRef, Place>,
+    /// By port of the pass that is being connected: whether the file names it.
+    named: Vec<bool>,
 }
 
 impl<'a> Validator<'a> {
@@ -87,6 +95,7 @@ impl<'a> Validator<'a> {
         catalogue: &'a Catalogue,
         overrides: &'a Overrides,
         exists: &'a dyn Fn(&Path) -> bool,
+        unknown: &'a Arc<Kind>,
     ) -> Self {
         Self {
             file,
@@ -95,12 +104,15 @@ impl<'a> Validator<'a> {
             exists,
             out: Diagnostics::default(),
             suggestions: MOST_SUGGESTIONS,
-            names: FxHashMap::default(),
+            names: Names::with_capacity(file.passes.len()),
+            unknown,
+            kinds: Vec::new(),
             params: Params::default(),
             passes: DiGraph::with_capacity(file.passes.len(), file.passes.iter().map(|pass| pass.inputs.len()).sum()),
             table: Table::default(),
             written: Vec::new(),
             size_param_places: FxHashMap::default(),
+            named: Vec::new(),
         }
     }
 
@@ -131,6 +143,7 @@ impl<'a> Validator<'a> {
             size_param_places: std::mem::take(&mut self.size_param_places),
             table: std::mem::take(&mut self.table),
         };
+        graph.table.kinds = self.kinds.iter().map(|kind| (*kind).clone()).collect();
         graph.table.feeds.shrink_to_fit();
         self.check_sizes(&graph);
         graph
@@ -142,12 +155,14 @@ impl<'a> Validator<'a> {
         if file.outputs.is_empty() && !file.broken {
             let message = "the graph has no outputs, so nothing would be drawn";
             let suggestion = "add outputs: { \"image\": \"pass.port\" }";
-            self.report(Diagnostic::error(codes::NO_OUTPUTS, self.place(file.outputs_span), message).suggest(suggestion));
+            self.report(
+                Diagnostic::error(codes::NO_OUTPUTS, self.place(file.outputs_span), message).suggest(suggestion),
+            );
         }
         let mut outputs = Vec::with_capacity(file.outputs.len());
         for output in &file.outputs {
             if let Some((port, _)) = self.source(&output.from) {
-                outputs.push((output.name.value.clone(), port));
+                outputs.push((file.text(&output.name).to_owned(), port));
             }
         }
         outputs
@@ -181,6 +196,18 @@ impl<'a> Validator<'a> {
     fn beside_file(&self, path: &str) -> String {
         let folder = Path::new(self.file.source.name()).parent().unwrap_or(Path::new(""));
         folder.join(path).to_string_lossy().into_owned()
+    }
+
+    /// The pass of this name.
+    fn pass_named(&self, name: &str) -> Option<u32> {
+        let file = self.file;
+        self.names.find(name, |pass| file.text(&file.passes[pass as usize].name) == name)
+    }
+
+    /// Names of all passes.
+    fn pass_names(&self) -> impl Iterator<Item = &'a str> + Clone + use<'a> {
+        let file = self.file;
+        file.passes.iter().map(|pass| file.text(&pass.name))
     }
 
     fn place(&self, span: Span) -> Place {
@@ -222,7 +249,8 @@ fn list_few<'n>(
     suggestion: impl Fn(&str) -> String,
 ) -> Diagnostic {
     const MOST: usize = 12;
-    let few: Vec<String> = candidates.into_iter().take(MOST + 1).map(|name| format!("`{}`", suggestion(name))).collect();
+    let few: Vec<String> =
+        candidates.into_iter().take(MOST + 1).map(|name| format!("`{}`", suggestion(name))).collect();
     match few.len() {
         0 => diagnostic.suggest("there is none"),
         1..=MOST => diagnostic.suggest(format!("there is {}", few.join(", "))),

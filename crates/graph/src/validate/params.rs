@@ -47,9 +47,9 @@ impl<'a> Validator<'a> {
             let mut decoder = Decoder::new(&file.source, &mut self.out);
             let value = free_value(&mut decoder, &entry.value);
             let index = self.params.graph.len() as u32;
-            self.params.by_name.entry(&entry.name.value).or_insert(index);
+            self.params.by_name.entry(file.text(&entry.name)).or_insert(index);
             self.params.graph.push(GraphValue {
-                name: entry.name.value.clone(),
+                name: file.text(&entry.name).to_owned(),
                 definition: entry.name.span,
                 value,
                 place: file.source.place(entry.value.span),
@@ -72,7 +72,7 @@ impl<'a> Validator<'a> {
         let Some(index) = self.params.by_name.get(given.name.as_str()).copied() else {
             let message = format!("the graph has no parameter named `{}`", given.name);
             let file = self.file;
-            let names = file.params.iter().map(|param| param.name.value.as_str());
+            let names = file.params.iter().map(|param| file.text(&param.name));
             self.report_unknown((codes::UNKNOWN_PARAMETER, place), message, &given.name, names, str::to_owned);
             return;
         };
@@ -96,10 +96,9 @@ impl<'a> Validator<'a> {
 
     fn override_pass(&mut self, given: &'a Override, pass_name: &str, param_name: &str) {
         let place = Place::Argument(given.argument.clone());
-        let Some(pass) = self.names.get(pass_name).copied() else {
+        let Some(pass) = self.pass_named(pass_name) else {
             let message = format!("there is no pass named `{pass_name}`");
-            let file = self.file;
-            let names = file.passes.iter().map(|pass| pass.name.value.as_str());
+            let names = self.pass_names();
             let whole = |near: &str| format!("{near}.{param_name}");
             self.report_unknown((codes::UNKNOWN_REFERENCE, place), message, pass_name, names, whole);
             return;

@@ -38,7 +38,7 @@ impl Validator<'_> {
     /// Of outputs this is in the descriptor, but for those of any class.
     fn flow_of_outputs(&mut self) {
         for pass in 0..self.table.passes() {
-            let kind = &self.table.kinds[self.table.kind_of[pass as usize] as usize];
+            let kind = self.kind_of(pass);
             let first = self.table.first_port[pass as usize] as usize;
             for (index, port) in kind.descriptor.ports.iter().enumerate() {
                 self.table.flows[first + index] = match kind.signature.ports[index].role {
@@ -50,7 +50,7 @@ impl Validator<'_> {
     }
 
     fn flow_of_pass(&mut self, pass: u32, feeds: &[Feed]) {
-        let kind = &self.table.kinds[self.table.kind_of[pass as usize] as usize];
+        let kind = self.kind_of(pass);
         let first = self.table.first_port[pass as usize];
         for (number, (port, descriptor)) in (first..).zip(kind.signature.ports.iter().zip(&kind.descriptor.ports)) {
             if matches!(port.role, RoleKind::Output | RoleKind::History) {
@@ -73,7 +73,7 @@ impl Validator<'_> {
         for pass in 0..self.table.passes() {
             for number in self.table.ports(pass) {
                 let index = (number - self.table.first_port[pass as usize]) as usize;
-                let role = self.table.kind(pass).signature.ports[index].role;
+                let role = self.kind_of(pass).signature.ports[index].role;
                 if role.is_input()
                     && concerns(number as usize)
                     && let Some(source) = feeds[number as usize].number().filter(|source| *source != number)
@@ -87,7 +87,7 @@ impl Validator<'_> {
 
     /// What is wrong with feeding the port at `index` from the port `source`.
     fn mistake(&self, pass: u32, index: usize, source: u32) -> Option<(Code, String)> {
-        let demanded = &self.table.kind(pass).descriptor.ports[index];
+        let demanded = &self.kind_of(pass).descriptor.ports[index];
         let flow = self.table.flows[source as usize];
         let fed = self.descriptor_of(source);
         kind_mistake(demanded, fed, flow).or_else(|| unit_mistake(demanded, fed))
@@ -95,19 +95,19 @@ impl Validator<'_> {
 
     fn descriptor_of(&self, number: u32) -> &PortDescriptor {
         let pass = self.table.pass_of[number as usize];
-        &self.table.kind(pass).descriptor.ports[(number - self.table.first_port[pass as usize]) as usize]
+        &self.kind_of(pass).descriptor.ports[(number - self.table.first_port[pass as usize]) as usize]
     }
 
     fn report_edge(&mut self, number: u32, source: u32, (code, message): (Code, String)) {
         let (pass, writer) = (self.table.pass_of[number as usize], self.table.pass_of[source as usize]);
         let file = self.file;
         let name = &self.descriptor_of(number).name;
-        let from = format!("{}.{}", file.passes[writer as usize].name.value, self.descriptor_of(source).name);
-        let input = file.passes[pass as usize].inputs.iter().find(|input| input.name.value == *name);
+        let from = format!("{}.{}", file.text(&file.passes[writer as usize].name), self.descriptor_of(source).name);
+        let input = file.passes[pass as usize].inputs.iter().find(|input| file.text(&input.name) == name);
         let Some(named) = input.and_then(|input| input.from.as_ref()) else { return };
-        let message = match from == named.value {
+        let message = match from == file.text(named) {
             true => message,
-            false => format!("{message} (`{}` is switched off, so `{from}` flows here)", named.value),
+            false => format!("{message} (`{}` is switched off, so `{from}` flows here)", file.text(named)),
         };
         let diagnostic = Diagnostic::error(code, self.place(named.span), message);
         let related = self.place(self.pass_span(writer));
@@ -136,7 +136,9 @@ fn declared(port: &PortDescriptor, like: Flow) -> Flow {
 
 /// The constant that stands for an optional input that nothing feeds.
 fn absent(port: &PortDescriptor) -> Flow {
-    let PortKind::Texture { dimension, class, format, filtered } = &port.kind else { return declared(port, Flow::UNKNOWN) };
+    let PortKind::Texture { dimension, class, format, filtered } = &port.kind else {
+        return declared(port, Flow::UNKNOWN);
+    };
     let usual = match class {
         Class::Scalar => Format::R32Float,
         Class::RasterDepth => Format::Depth32Float,
@@ -182,14 +184,17 @@ fn kind_mistake(demanded: &PortDescriptor, fed: &PortDescriptor, flow: Flow) -> 
 fn element_mistake(name: &str, demanded: (&str, u32), fed: (&str, u32)) -> Option<(Code, String)> {
     let (element, bytes) = demanded;
     (demanded != fed).then(|| {
-        let message = format!("`{name}` has elements `{element}` of {bytes} bytes, and this has `{}` of {} bytes", fed.0, fed.1);
+        let message =
+            format!("`{name}` has elements `{element}` of {bytes} bytes, and this has `{}` of {} bytes", fed.0, fed.1);
         (codes::WRONG_ELEMENT, message)
     })
 }
 
 fn unit_mistake(demanded: &PortDescriptor, fed: &PortDescriptor) -> Option<(Code, String)> {
     let differ = !demanded.unit.is_empty() && !fed.unit.is_empty() && demanded.unit != fed.unit;
-    differ.then(|| (codes::WRONG_UNIT, format!("`{}` is in {}, and this is in {}", demanded.name, demanded.unit, fed.unit)))
+    differ.then(|| {
+        (codes::WRONG_UNIT, format!("`{}` is in {}, and this is in {}", demanded.name, demanded.unit, fed.unit))
+    })
 }
 
 fn element_of(port: &PortDescriptor) -> &str {

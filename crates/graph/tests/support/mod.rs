@@ -1,15 +1,17 @@
 //! Passes for tests and benchmarks: every kind of port, size, parameter and switch occurs.
 
 #![allow(dead_code, reason = "each test uses a part of it")]
-#![allow(missing_docs, reason = "it is for tests")]
+#![allow(missing_docs, clippy::unwrap_used, reason = "it is for tests")]
+
+pub mod random;
 
 use std::path::Path;
 use std::sync::Arc;
 
 use tyndall_document::{Diagnostics, Source, render_text};
 use tyndall_graph::descriptor::{
-    Axis, Class, Dimension, Disabled, Extent, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind,
-    Role, SizeRule,
+    Axis, Class, Dimension, Disabled, Extent, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor,
+    PortKind, Role, SizeRule,
 };
 use tyndall_graph::{Catalogue, Graph, Overrides, Plan, PlanOptions, plan, read, validate_with};
 
@@ -18,7 +20,15 @@ pub fn texture(class: Class, format: Option<Format>) -> PortKind {
 }
 
 pub fn port(name: &str, role: Role, kind: PortKind) -> PortDescriptor {
-    PortDescriptor { name: name.into(), about: String::new(), unit: String::new(), role, kind, size: None, unordered: false }
+    PortDescriptor {
+        name: name.into(),
+        about: String::new(),
+        unit: String::new(),
+        role,
+        kind,
+        size: None,
+        unordered: false,
+    }
 }
 
 pub fn input(name: &str, class: Class) -> PortDescriptor {
@@ -305,7 +315,9 @@ pub const CONTRACT: &str = r#"(
 /// A graph file of about as many passes, in groups like the contract's example, each group reading the one before it.
 pub fn generated(passes: usize) -> String {
     use std::fmt::Write;
-    let mut text = String::from("(\n    version: 1,\n    about: \"Generated.\",\n    params: { \"exposure\": 1.0 },\n    passes: {\n");
+    let mut text = String::from(
+        "(\n    version: 1,\n    about: \"Generated.\",\n    params: { \"exposure\": 1.0 },\n    passes: {\n",
+    );
     let groups = passes.div_ceil(5);
     for group in 0..groups {
         let left = (passes - 5 * group).min(5);

@@ -66,8 +66,10 @@ impl Glb {
             let bytes: Vec<u8> = shape.indices.iter().flat_map(|&i| (i as u16).to_le_bytes()).collect();
             let view = self.view(&bytes);
             let count = shape.indices.len();
-            let indices =
-                self.add("accessors", json!({ "bufferView": view, "componentType": 5123, "count": count, "type": "SCALAR" }));
+            let indices = self.add(
+                "accessors",
+                json!({ "bufferView": view, "componentType": 5123, "count": count, "type": "SCALAR" }),
+            );
             let attributes = json!({ "POSITION": positions, "NORMAL": normals, "TEXCOORD_0": uvs });
             primitives.push(json!({ "attributes": attributes, "indices": indices, "material": material }));
         }

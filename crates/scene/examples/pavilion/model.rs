@@ -69,19 +69,21 @@ pub fn pavilion() -> Vec<u8> {
         let place = around(k as f32 * TAU / 4.0, LANTERN.0, LANTERN.1);
         roots.push(glb.node(&format!("lantern {k}"), place, still, &json!({ "mesh": lantern }), &[flame]));
     }
-    let lamp = glb.light(json!({ "type": "point", "name": "chandelier", "color": [1.0, 0.82, 0.58], "intensity": 12.0 }));
+    let lamp =
+        glb.light(json!({ "type": "point", "name": "chandelier", "color": [1.0, 0.82, 0.58], "intensity": 12.0 }));
     let flame = glb.node("lamp in the middle", Vec3::ZERO, still, &lamp, &[]);
     let middle = Vec3::new(0.0, CHANDELIER, 0.0);
     roots.push(glb.node("chandelier", middle, still, &json!({ "mesh": lantern }), &[flame]));
     let cone = json!({ "outerConeAngle": 0.5 });
-    let spot =
-        glb.light(json!({ "type": "spot", "name": "moonlight", "color": [0.6, 0.75, 1.0], "intensity": 60.0, "spot": cone }));
-    let down = Quat::from_rotation_arc(Vec3::NEG_Z, Vec3::new(0.55, -1.0, -0.25).normalize());
-    roots.push(glb.node("spot above the trees", Vec3::new(-6.5, 8.0, 4.0), down, &spot, &[]));
+    let spot = glb.light(
+        json!({ "type": "spot", "name": "moonlight", "color": [0.6, 0.75, 1.0], "intensity": 60.0, "spot": cone }),
+    );
+    let down = Quat::from_rotation_arc(Vec3::NEG_Z, Vec3::new(-0.62, -1.0, -0.1).normalize());
+    roots.push(glb.node("spot above the trees", Vec3::new(6.2, 8.2, 0.5), down, &spot, &[]));
     let perspective = json!({ "yfov": 0.8, "znear": 0.1, "aspectRatio": 1.5 });
     let camera = glb.add("cameras", json!({ "type": "perspective", "perspective": perspective }));
-    let eye = Vec3::new(4.4, 1.7, 10.2);
-    let forward = (Vec3::new(0.0, 2.75, 0.0) - eye).normalize();
+    let eye = Vec3::new(-3.1, 1.65, 11.2);
+    let forward = (Vec3::new(0.0, 3.0, 0.0) - eye).normalize();
     let right = forward.cross(Vec3::Y).normalize();
     let turn = Quat::from_mat3(&Mat3::from_cols(right, right.cross(forward), -forward));
     roots.push(glb.node("eye", eye, turn, &json!({ "camera": camera }), &[]));
@@ -94,7 +96,8 @@ fn around(angle: f32, radius: f32, height: f32) -> Vec3 {
 }
 
 fn steps() -> Shape {
-    let profile = [(0.0, -0.1), (3.9, -0.1), (3.9, 0.15), (3.6, 0.15), (3.6, 0.3), (3.3, 0.3), (3.3, FLOOR), (0.0, FLOOR)];
+    let profile =
+        [(0.0, -0.1), (3.9, -0.1), (3.9, 0.15), (3.6, 0.15), (3.6, 0.3), (3.3, 0.3), (3.3, FLOOR), (0.0, FLOOR)];
     turned(&profile, OCTAGON)
 }
 
@@ -102,9 +105,27 @@ fn steps() -> Shape {
 fn column() -> Shape {
     let top = CAPITALS - FLOOR;
     let profile = [
-        (0.0, 0.0), (0.24, 0.0), (0.24, 0.10), (0.225, 0.11), (0.235, 0.14), (0.225, 0.17), (0.19, 0.19), (0.185, 0.23),
-        (0.165, 0.26), (0.166, 0.7), (0.164, 1.2), (0.155, 1.8), (0.142, 2.3), (0.135, top - 0.38), (0.16, top - 0.36),
-        (0.16, top - 0.33), (0.14, top - 0.31), (0.15, top - 0.22), (0.19, top - 0.14), (0.25, top - 0.10), (0.25, top),
+        (0.0, 0.0),
+        (0.24, 0.0),
+        (0.24, 0.10),
+        (0.225, 0.11),
+        (0.235, 0.14),
+        (0.225, 0.17),
+        (0.19, 0.19),
+        (0.185, 0.23),
+        (0.165, 0.26),
+        (0.166, 0.7),
+        (0.164, 1.2),
+        (0.155, 1.8),
+        (0.142, 2.3),
+        (0.135, top - 0.38),
+        (0.16, top - 0.36),
+        (0.16, top - 0.33),
+        (0.14, top - 0.31),
+        (0.15, top - 0.22),
+        (0.19, top - 0.14),
+        (0.25, top - 0.10),
+        (0.25, top),
         (0.0, top),
     ];
     turned(&profile, ROUND)
@@ -112,7 +133,11 @@ fn column() -> Shape {
 
 fn beam() -> Shape {
     let profile = [
-        (2.6, CAPITALS), (3.15, CAPITALS), (3.15, CAPITALS + 0.16), (3.22, CAPITALS + 0.2), (3.22, CAPITALS + 0.34),
+        (2.6, CAPITALS),
+        (3.15, CAPITALS),
+        (3.15, CAPITALS + 0.16),
+        (3.22, CAPITALS + 0.2),
+        (3.22, CAPITALS + 0.34),
         (2.6, CAPITALS + 0.34),
     ];
     turned(&profile, Turning { ring: true, ..OCTAGON })
@@ -120,7 +145,15 @@ fn beam() -> Shape {
 
 /// From the eaves to the neck of the finial, a flared, then steep curve.
 const ROOF: [(f32, f32); 10] = [
-    (3.75, 3.66), (3.3, 3.86), (2.8, 4.1), (2.3, 4.38), (1.8, 4.72), (1.3, 5.12), (0.85, 5.55), (0.5, 5.95), (0.25, 6.3),
+    (3.75, 3.66),
+    (3.3, 3.86),
+    (2.8, 4.1),
+    (2.3, 4.38),
+    (1.8, 4.72),
+    (1.3, 5.12),
+    (0.85, 5.55),
+    (0.5, 5.95),
+    (0.25, 6.3),
     (0.14, 6.55),
 ];
 
@@ -131,9 +164,9 @@ fn roof_tiles() -> Shape {
     turned(&profile, OCTAGON)
 }
 
-/// Closes the roof from below, with a coffer between ceiling and beam.
+/// Closes the roof from below; it rests in the beam, so that no edge of the two coincides.
 fn roof_underside() -> Shape {
-    let profile = [(0.0, 4.5), (2.5, 3.9), (2.6, 3.74), (3.22, 3.74), (3.75, 3.6)];
+    let profile = [(0.0, 4.5), (2.5, 3.9), (2.65, 3.7), (3.15, 3.7), (3.75, 3.6)];
     turned(&profile, OCTAGON)
 }
 
@@ -172,10 +205,8 @@ fn bench() -> Shape {
 }
 
 fn lawn() -> Shape {
-    let mut shape = Shape::default();
-    // Cut into squares: texture coordinates in metres stay exact, and the far edge lies beyond the fog.
-    shape.join(&cuboid(Vec3::new(0.0, -0.5, 0.0), Vec3::new(160.0, 1.0, 160.0)), Vec3::ZERO, Mat3::IDENTITY);
-    shape
+    // Its edge lies beyond the fog.
+    cuboid(Vec3::new(0.0, -0.5, 0.0), Vec3::new(160.0, 1.0, 160.0))
 }
 
 /// From the steps to the south and to the north.
@@ -201,9 +232,9 @@ fn hedges() -> Shape {
         // A clipped ball beside each end of the path.
         let ball: Vec<(f32, f32)> = (0..=12)
             .map(|i| (i as f32 / 12.0 * TAU / 2.0).sin_cos())
-            .map(|(sin, cos)| (if sin < 1e-6 { 0.0 } else { 0.55 * sin }, 0.5 - 0.55 * cos))
+            .map(|(sin, cos)| (if sin < 1e-6 { 0.0 } else { 0.42 * sin }, 0.38 - 0.42 * cos))
             .collect();
-        shape.join(&turned(&ball, ROUND), Vec3::new(1.75 * x, 0.0, 5.6 * z), Mat3::IDENTITY);
+        shape.join(&turned(&ball, ROUND), Vec3::new(1.55 * x, 0.0, 5.9 * z), Mat3::IDENTITY);
     }
     shape
 }

@@ -10,9 +10,8 @@ use crate::phase::Phase;
 
 pub(super) fn medium(decoder: &mut Decoder, node: &Node) -> Option<Medium> {
     let fields = decoder.fields(node, "a medium", &["extinction", "albedo", "phase"])?;
-    let extinction = given(fields.get("extinction"), DVec3::ZERO, |n| {
-        vector(decoder, n, "extinction", Range::NotNegative)
-    });
+    let extinction =
+        given(fields.get("extinction"), DVec3::ZERO, |n| vector(decoder, n, "extinction", Range::NotNegative));
     let albedo = given(fields.get("albedo"), DVec3::ONE, |n| vector(decoder, n, "albedo", Range::Unit));
     let phase = given(fields.get("phase"), Phase::Isotropic, |n| phase(decoder, n));
     Some(Medium { extinction: extinction?, albedo: albedo?, phase: phase? })

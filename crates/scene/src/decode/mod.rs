@@ -31,18 +31,11 @@ pub(crate) fn scene(decoder: &mut Decoder, root: &Node) -> Option<Draft> {
     let none = CameraDraft::Model { vertical_fov: None };
     let camera = given(fields.get("camera"), none, |n| camera::camera(decoder, n));
     let medium = given(fields.get("medium"), None, |n| medium::medium(decoder, n).map(Some));
-    let background = given(fields.get("background"), DVec3::ZERO, |n| {
-        vector(decoder, n, "background", Range::NotNegative)
-    });
+    let background =
+        given(fields.get("background"), DVec3::ZERO, |n| vector(decoder, n, "background", Range::NotNegative));
     let lights = given(fields.get("lights"), None, |n| lights::lights(decoder, n).map(Some));
     let objects = given(fields.get("objects"), Vec::new(), |n| objects::objects(decoder, n));
-    Some(Draft {
-        camera: camera?,
-        medium: medium?,
-        background: background?,
-        lights: lights?,
-        objects: objects?,
-    })
+    Some(Draft { camera: camera?, medium: medium?, background: background?, lights: lights?, objects: objects? })
 }
 
 /// The default where a field is left out, else what is read of it.

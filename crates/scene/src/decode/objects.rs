@@ -40,9 +40,8 @@ fn object(decoder: &mut Decoder, node: &Node) -> Option<ObjectDraft> {
     let known = ["mesh", "translation", "rotation", "scale", "material", "casts_shadow"];
     let fields = decoder.fields(node, "an object", &known)?;
     let mesh = fields.required(decoder, "mesh").and_then(|n| mesh(decoder, n));
-    let translation = given(fields.get("translation"), Animated::Constant(DVec3::ZERO), |n| {
-        animated(decoder, n, "translation")
-    });
+    let translation =
+        given(fields.get("translation"), Animated::Constant(DVec3::ZERO), |n| animated(decoder, n, "translation"));
     let rotation = given(fields.get("rotation"), DQuat::IDENTITY, |n| rotation(decoder, n));
     let scale = given(fields.get("scale"), 1.0, |n| number(decoder, n, "scale", Range::Positive));
     let material = given(fields.get("material"), None, |n| material(decoder, n).map(Some));
@@ -67,14 +66,11 @@ fn rotation(decoder: &mut Decoder, node: &Node) -> Option<DQuat> {
 fn material(decoder: &mut Decoder, node: &Node) -> Option<Material> {
     let fields = decoder.fields(node, "a material", &["diffuse", "specular", "shininess"])?;
     let default = Material::default();
-    let mut color = |name, default| {
-        given(fields.get(name), default, |n| vector(decoder, n, name, Range::NotNegative))
-    };
+    let mut color = |name, default| given(fields.get(name), default, |n| vector(decoder, n, name, Range::NotNegative));
     let diffuse = color("diffuse", default.diffuse);
     let specular = color("specular", default.specular);
-    let shininess = given(fields.get("shininess"), default.shininess, |n| {
-        number(decoder, n, "shininess", Range::NotNegative)
-    });
+    let shininess =
+        given(fields.get("shininess"), default.shininess, |n| number(decoder, n, "shininess", Range::NotNegative));
     if let (Some(diffuse), Some(node)) = (diffuse, fields.get("diffuse"))
         && diffuse.max_element() > 1.0
     {

@@ -17,14 +17,24 @@ pub(crate) type Kind = (ComponentType, bool);
 pub(crate) const FLOAT: &[Kind] = &[(ComponentType::F32, false)];
 /// Positions, with those of KHR_mesh_quantization.
 pub(crate) const POSITION: &[Kind] = &[
-    (ComponentType::F32, false), (ComponentType::I8, false), (ComponentType::I8, true), (ComponentType::U8, false),
-    (ComponentType::U8, true), (ComponentType::I16, false), (ComponentType::I16, true), (ComponentType::U16, false),
+    (ComponentType::F32, false),
+    (ComponentType::I8, false),
+    (ComponentType::I8, true),
+    (ComponentType::U8, false),
+    (ComponentType::U8, true),
+    (ComponentType::I16, false),
+    (ComponentType::I16, true),
+    (ComponentType::U16, false),
     (ComponentType::U16, true),
 ];
 /// Normals and rotations.
-pub(crate) const SIGNED: &[Kind] =
-    &[(ComponentType::F32, false), (ComponentType::I8, true), (ComponentType::I16, true), (ComponentType::U8, true),
-      (ComponentType::U16, true)];
+pub(crate) const SIGNED: &[Kind] = &[
+    (ComponentType::F32, false),
+    (ComponentType::I8, true),
+    (ComponentType::I16, true),
+    (ComponentType::U8, true),
+    (ComponentType::U16, true),
+];
 /// Texture coordinates: as positions.
 pub(crate) const TEXCOORD: &[Kind] = POSITION;
 
@@ -137,9 +147,9 @@ impl<'a> Data<'a> {
             return Ok(None);
         };
         let offset = accessor.byte_offset.unwrap_or_default().0;
-        self.strided(view.value(), offset, count, size).map(Some).map_err(|fault| {
-            Fault { message: format!("accessor {index}: {}", fault.message), ..fault }
-        })
+        self.strided(view.value(), offset, count, size)
+            .map(Some)
+            .map_err(|fault| Fault { message: format!("accessor {index}: {}", fault.message), ..fault })
     }
 
     fn strided(&self, view: usize, offset: u64, count: usize, size: usize) -> Checked<Elements<'a>> {
@@ -150,7 +160,8 @@ impl<'a> Data<'a> {
         }
         let needed = (count as u64 - 1) * stride as u64 + size as u64;
         let range = range(offset, needed, bytes.len()).ok_or_else(|| {
-            let message = format!("{count} elements need {needed} bytes at {offset}, bufferView {view} has {}", bytes.len());
+            let message =
+                format!("{count} elements need {needed} bytes at {offset}, bufferView {view} has {}", bytes.len());
             Fault::new(GLTF_BUFFER_RANGE, message)
         })?;
         Ok(Elements { bytes: &bytes[range], stride, size, count })
@@ -168,7 +179,8 @@ impl<'a> Data<'a> {
         let Valid(kind) = sparse.indices.component_type else {
             return Err(label(Fault::new(GLTF_ACCESSOR_TYPE, "indices must be U8, U16 or U32")));
         };
-        let indices = self.strided(sparse.indices.buffer_view.value(), sparse.indices.byte_offset.0, number, kind.0.size());
+        let indices =
+            self.strided(sparse.indices.buffer_view.value(), sparse.indices.byte_offset.0, number, kind.0.size());
         let values = self.strided(sparse.values.buffer_view.value(), sparse.values.byte_offset.0, number, size);
         let (indices, values) = (indices.map_err(label)?, values.map_err(label)?);
         let at = |bytes| {

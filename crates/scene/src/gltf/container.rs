@@ -33,7 +33,8 @@ pub(crate) fn split(bytes: &[u8]) -> Checked<(&[u8], Option<&[u8]>)> {
 /// The chunk at an offset if it is of that kind, and where the next one starts.
 fn chunk(bytes: &[u8], at: usize, kind: [u8; 4]) -> Checked<(Option<&[u8]>, usize)> {
     let header = bytes.get(at..at + 8);
-    let header = header.ok_or_else(|| Fault::new(GLTF_CONTAINER, format!("the file ends inside a chunk at byte {at}")))?;
+    let header =
+        header.ok_or_else(|| Fault::new(GLTF_CONTAINER, format!("the file ends inside a chunk at byte {at}")))?;
     let length = u32::from_le_bytes([header[0], header[1], header[2], header[3]]) as usize;
     let start = at + 8;
     let body = bytes.get(start..start.saturating_add(length)).ok_or_else(|| {
@@ -46,7 +47,8 @@ fn chunk(bytes: &[u8], at: usize, kind: [u8; 4]) -> Checked<(Option<&[u8]>, usiz
 /// Reads the JSON and checks version and required extensions.
 pub(crate) fn parse(json: &[u8]) -> Checked<Root> {
     let root = Root::from_slice(json).map_err(|error| {
-        let what = if json.is_empty() { "the file is empty".to_owned() } else { format!("not readable as glTF: {error}") };
+        let what =
+            if json.is_empty() { "the file is empty".to_owned() } else { format!("not readable as glTF: {error}") };
         Fault::new(GLTF_SYNTAX, what)
     })?;
     let needed = root.asset.min_version.as_deref().unwrap_or(&root.asset.version);

@@ -21,8 +21,8 @@ impl Fault {
         Fault { code, element: String::new(), message: message.into() }
     }
 
-    fn text(&self) -> String {
-        if self.element.is_empty() { self.message.clone() } else { format!("{}: {}", self.element, self.message) }
+    fn text(self) -> String {
+        if self.element.is_empty() { self.message } else { format!("{}: {}", self.element, self.message) }
     }
 }
 

@@ -29,7 +29,8 @@ impl Folder {
         match scheme(uri) {
             Some(scheme) if scheme.eq_ignore_ascii_case("data") => data(&uri[5..]),
             Some(scheme) => {
-                let message = format!("URI scheme {scheme:?}; only files of the glTF file's folder and data: URIs are read");
+                let message =
+                    format!("URI scheme {scheme:?}; only files of the glTF file's folder and data: URIs are read");
                 Err(Fault::new(GLTF_URI, message))
             }
             None => self.file(uri),

@@ -2,11 +2,11 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use glam::DVec3;
 use gltf::json::Root;
 use gltf::json::camera::Type as CameraType;
 use gltf::json::extensions::scene::khr_lights_punctual::{Light as JsonLight, Type};
 use gltf::json::validation::Checked::Valid;
-use glam::DVec3;
 
 use super::accessors::absent;
 use super::fault::{At, Checked, Fault, Report, element};

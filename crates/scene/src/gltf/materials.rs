@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use glam::DVec3;
 use gltf::json::material::AlphaMode;
 use gltf::json::texture::{Info, WrappingMode};
 use gltf::json::validation::Checked::Valid;
-use glam::DVec3;
 use image::RgbaImage;
 
 use super::accessors::{Data, absent};
@@ -35,7 +35,7 @@ struct Reader<'a> {
     data: Data<'a>,
     images: Images<'a>,
     textures: Vec<Texture>,
-    known: BTreeMap<(Option<usize>, Option<(usize, u32)>, u32), usize>,
+    known: BTreeMap<Key, usize>,
 }
 
 /// Reads the materials with the given indices.
@@ -145,9 +145,7 @@ impl Reader<'_> {
         let transform = info.extensions.as_ref().and_then(|e| e.texture_transform.as_ref());
         let uv = match transform {
             None => UvSource::new(info.tex_coord, [0.0; 2], 0.0, [1.0; 2]),
-            Some(t) => {
-                UvSource::new(t.tex_coord.unwrap_or(info.tex_coord), t.offset.0, t.rotation.0, t.scale.0)
-            }
+            Some(t) => UvSource::new(t.tex_coord.unwrap_or(info.tex_coord), t.offset.0, t.rotation.0, t.scale.0),
         };
         if !uv.transform.is_finite() {
             return Err(Fault::new(GLTF_MATERIAL, "KHR_texture_transform is not finite"));
@@ -157,7 +155,7 @@ impl Reader<'_> {
 
     /// The texture of a base colour image whose texels are multiplied by 1 − metallic; of both, either may be absent.
     fn texture(&mut self, (base, metal, wrap): Key) -> Checked<usize> {
-        let key = (base, metal, encoded_wrap(wrap));
+        let key = (base, metal, wrap);
         if let Some(&known) = self.known.get(&key) {
             return Ok(known);
         }

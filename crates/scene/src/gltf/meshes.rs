@@ -1,8 +1,8 @@
 //! Mesh primitives as triangle meshes.
 
+use glam::{DAffine2, DMat2, DVec2, Vec2, Vec3};
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked::Valid;
-use glam::{DAffine2, DMat2, DVec2, Vec2, Vec3};
 
 use super::accessors::{Data, POSITION, SIGNED, TEXCOORD};
 use super::fault::{At, Checked, Fault};
@@ -28,7 +28,10 @@ impl UvSource {
         let (sin, cos) = f64::from(rotation).sin_cos();
         let rotation = DMat2::from_cols(DVec2::new(cos, -sin), DVec2::new(sin, cos));
         let scale = DMat2::from_diagonal(Vec2::from_array(scale).as_dvec2());
-        UvSource { set, transform: DAffine2::from_mat2_translation(rotation * scale, Vec2::from_array(offset).as_dvec2()) }
+        UvSource {
+            set,
+            transform: DAffine2::from_mat2_translation(rotation * scale, Vec2::from_array(offset).as_dvec2()),
+        }
     }
 }
 
@@ -47,7 +50,12 @@ impl Budget {
 }
 
 /// The mesh of a primitive, `None` where it has no triangles (points and lines).
-pub(crate) fn mesh(data: Data, primitive: &Primitive, uv: Option<UvSource>, budget: &mut Budget) -> Checked<Option<Mesh>> {
+pub(crate) fn mesh(
+    data: Data,
+    primitive: &Primitive,
+    uv: Option<UvSource>,
+    budget: &mut Budget,
+) -> Checked<Option<Mesh>> {
     let Valid(mode) = primitive.mode else { return Err(Fault::new(GLTF_MODE, "unknown mode")) };
     if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
         return Ok(None);

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use glam::{DAffine3, DQuat, DVec3, DVec4, Vec4};
 use gltf::json::animation::{Channel, Interpolation, Property, Sampler};
 use gltf::json::validation::Checked::Valid;
-use glam::{DAffine3, DQuat, DVec3, DVec4, Vec4};
 
 use super::accessors::{Data, FLOAT, SIGNED, absent};
 use super::fault::{At, Checked, Fault, Report, element};

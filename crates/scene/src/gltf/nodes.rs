@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use gltf::json::{Node as JsonNode, Root};
 use glam::{DAffine3, DMat4, DQuat, DVec3, Mat4, Quat, Vec3};
+use gltf::json::{Node as JsonNode, Root};
 
 use super::accessors::absent;
 use super::fault::{At, Checked, Fault, element};
