@@ -22,22 +22,20 @@ fn spot_falloff(light: Light, cosine: f32) -> f32 {
     return select(0.0, pow(max(cosine, 1e-30), light.exponent), inside);
 }
 
-// The lit parts of a ray, in v, each from x to y.
+// The lit parts of a ray, in v, each from x to y, in order.
 struct SpotBesideRay {
     along: f32,
     across: f32,
-    parts: u32,                 // 0 to 2
-    first: vec2<f32>,           // empty where there is no part
+    first: vec2<f32>,           // an empty part has x >= y
     second: vec2<f32>,
 }
 
-// cos^N is left out where it is below 2^-20 of its largest value on the ray, so that a narrow peak gets all nodes; and
-// the ray is cut in two at the peak if N is above this.
-const FALLOFF_BITS: f32 = 20.0;
-const SPLIT_EXPONENT: f32 = 2.0;
+// cos^N is left out where it is below 2^-30 of its largest value on the ray, so that nodes stand where the light is.
+const FALLOFF_BITS: f32 = 30.0;
 
-// Of the ray from v0 to v1. `from_light` is the unit vector from the light to the foot.
-fn spot_beside_ray(light: Light, direction: vec3<f32>, from_light: vec3<f32>, v0: f32, v1: f32) -> SpotBesideRay {
+// Of the ray from v0 to v1. `from_light` is the unit vector from the light to the foot; `depth_of_v` the optical depth of
+// one unit of v: it moves what counts to the near end, so more of a tail there is kept.
+fn spot_beside_ray(light: Light, direction: vec3<f32>, from_light: vec3<f32>, v0: f32, v1: f32, depth_of_v: f32) -> SpotBesideRay {
     let along = dot(light.direction, direction);
     let across = clamp(dot(light.direction, from_light), -1.0, 1.0);
     // v of the peak, tan(pi/4 + atan2(along, across)/2), at an end of the ray where across < 0
@@ -47,22 +45,17 @@ fn spot_beside_ray(light: Light, direction: vec3<f32>, from_light: vec3<f32>, v0
     let v = clamp(peak, v0, v1);
     let q = 1.0 / (1.0 + v * v);
     let highest = max(along * (1.0 - 2.0 * q) + 2.0 * across * v * q, 0.0);
-    let lowest = highest * exp2(-FALLOFF_BITS / max(light.exponent, 0.01));
+    let bits = FALLOFF_BITS + min(1.4427 * depth_of_v * (v - v0), 1000.0);
+    let lowest = highest * exp2(-bits / max(light.exponent, 0.01));
     let lit = ray_in_cone(along, across, max(light.cos_cutoff, select(-1.0, lowest, light.exponent > 0.0)));
-    let low = max(lit.first.x, v0);
-    let high = min(lit.first.y, v1);
-    if lit.parts == 1u && light.exponent > SPLIT_EXPONENT && low < v && v < high {
-        return SpotBesideRay(along, across, 2u, vec2<f32>(low, v), vec2<f32>(v, high));
-    }
-    return SpotBesideRay(along, across, lit.parts, lit.first, lit.second);
+    return SpotBesideRay(along, across, lit.first, lit.second);
 }
 
 // The largest v there is: its square must stay finite.
 const V_MAX: f32 = 1e18;
 
 struct Lit {
-    parts: u32,
-    first: vec2<f32>,
+    first: vec2<f32>,           // an empty part has x >= y
     second: vec2<f32>,
 }
 
@@ -72,7 +65,7 @@ fn ray_in_cone(along: f32, across: f32, c: f32) -> Lit {
     let nothing = vec2<f32>(0.0);
     let discriminant = along * along + across * across - c * c;
     if discriminant <= 0.0 {
-        return Lit(select(0u, 1u, c < 0.0), select(nothing, vec2<f32>(0.0, V_MAX), c < 0.0), nothing);
+        return Lit(select(nothing, vec2<f32>(0.0, V_MAX), c < 0.0), nothing);
     }
     let root = sqrt(discriminant);
     let q = -(across + select(-root, root, across >= 0.0));
@@ -83,10 +76,10 @@ fn ray_in_cone(along: f32, across: f32, c: f32) -> Lit {
     let low = max(min(v1, v2), 0.0);
     let high = max(max(v1, v2), 0.0);
     if a <= 0.0 {                // lit between the roots
-        return Lit(select(0u, 1u, high > low), vec2<f32>(low, high), nothing);
+        return Lit(vec2<f32>(low, high), nothing);
     }
     if low <= 0.0 {              // lit beyond the upper root only
-        return Lit(1u, vec2<f32>(high, V_MAX), nothing);
+        return Lit(vec2<f32>(high, V_MAX), nothing);
     }
-    return Lit(2u, vec2<f32>(0.0, low), vec2<f32>(high, V_MAX));
+    return Lit(vec2<f32>(0.0, low), vec2<f32>(high, V_MAX));
 }

@@ -21,11 +21,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let way = textureLoad(depth, id.xy, 0).x;
     var sum = vec3<f32>(0.0);
     // a list without lights holds one of intensity 0
-    var cursor = Cursor(0u, 0u, 0u);
+    var cursor = Cursor(0u, 0u, 0.0);
     loop {
-        let part = airlight(cursor, lights.items[cursor.light], medium, ray, way, nodes);
-        sum += part.radiance;
-        cursor = part.next;
+        let piece = airlight(cursor, lights.items[cursor.light], medium, ray, way, nodes);
+        sum += piece.radiance;
+        cursor = piece.next;
         if cursor.light >= lights.count { break; }
     }
     textureStore(radiance, id.xy, vec4<f32>(sum, 1.0));

@@ -94,7 +94,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let inverse = 1.0 / dot(ab, p);
     let q = cross(-a, ab);
     let face = cross(ab, ac);
-    let t = dot(face, a) / dot(face, direction);
+    let plane = dot(face, a) / dot(face, direction);
+    // No point of the triangle is nearer or farther than its corners, whatever a grazing plane says outside of it.
+    let corners = vec3(dot(a, direction), dot(a + ab, direction), dot(a + ac, direction));
+    let t = clamp(plane, min(min(corners.x, corners.y), corners.z), max(max(corners.x, corners.y), corners.z));
     if !(t > 0.0 && t < 3e38) {
         store_nothing(id.xy);
         return;

@@ -13,6 +13,9 @@ var<storage, read> triangles: Triangles;
 // m; closer than this nothing is drawn.
 const NEAREST = 1e-6;
 
+// Relative; a few steps of the 32-bit depth buffer.
+const BACK_FACE_BIAS = 1e-6;
+
 struct Corner {
     @builtin(position) clip: vec4<f32>,
     @location(0) ray: vec3<f32>, // camera.forward + x * right + y * up, not normalised; linear on the screen
@@ -42,11 +45,21 @@ struct Visible {
 fn shade(corner: Corner) -> Visible {
     let indices = triangles.items[corner.triangle];
     let a = from_camera(indices.x);
-    let normal = cross(from_camera(indices.y) - a, from_camera(indices.z) - a);
-    // The interpolated position only gives the ray's direction; its plane gives the distance.
+    let b = from_camera(indices.y);
+    let c = from_camera(indices.z);
+    let normal = cross(b - a, c - a);
+    // The interpolated position only gives the ray's direction; the triangle's plane gives the distance.
     let ray = corner.ray / dot(corner.ray, camera.forward);
-    let t = dot(normal, a) / dot(normal, ray);
+    let plane = dot(normal, a) / dot(normal, ray);
+    // A rasteriser may count a pixel whose centre lies just outside, and seen at a grazing angle the plane is far off
+    // there; but no point of the triangle is nearer than its nearest corner, or farther than its farthest.
+    let corners = vec3(dot(a, camera.forward), dot(b, camera.forward), dot(c, camera.forward));
+    let nearest = min(min(corners.x, corners.y), corners.z);
+    let farthest = max(max(corners.x, corners.y), corners.z);
+    let t = clamp(plane, max(nearest, NEAREST), farthest);
+    // Where two faces meet in an outline, the one that faces the eye wins.
+    let behind = select(1.0, 1.0 + BACK_FACE_BIAS, dot(normal, ray) > 0.0);
     // Seen edge on, the plane says nothing; the rasteriser's own depth will do.
-    let depth = select(corner.clip.z, NEAREST / t, t >= NEAREST && t < 1e30);
+    let depth = select(corner.clip.z, NEAREST / (t * behind), t >= NEAREST && t < 1e30);
     return Visible(corner.triangle + 1u, depth);
 }

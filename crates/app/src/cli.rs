@@ -172,7 +172,7 @@ pub(crate) struct Probe {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum New {
-    /// Write NAME.graph.ron
+    /// Write NAME.graph.ron, and NAME.scene.ron that it draws unless that is there
     Graph {
         /// Path, with or without `.graph.ron`
         name: PathBuf,

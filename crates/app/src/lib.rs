@@ -43,6 +43,7 @@ impl App {
 
     /// Reads the command line and does what it says.
     pub fn run(self) -> ExitCode {
+        terminal::quieten_device_select();
         let arguments = match cli::parse() {
             Ok(arguments) => arguments,
             Err(code) => return code,

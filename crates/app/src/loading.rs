@@ -34,6 +34,9 @@ pub(crate) struct Loaded {
 pub(crate) fn load(arguments: &GraphArguments, registry: &Registry) -> Result<Loaded, Failure> {
     let mut out = Diagnostics::default();
     let loaded = try_load(arguments, registry, &mut out);
+    if let Some(loaded) = &loaded {
+        warn_of_unbuilt(&loaded.graph, registry, &mut out);
+    }
     out.sort();
     out.dedup();
     if out.has_errors() {
@@ -62,7 +65,6 @@ pub(crate) fn try_load(arguments: &GraphArguments, registry: &Registry, out: &mu
     let graph = file.and_then(|file| tyndall_graph::validate(&file, registry.catalogue(), &overrides, out));
     let validate_us = start.elapsed().as_secs_f64() * 1e6;
     let graph = graph?;
-    warn_of_unbuilt(&graph, registry, out);
     let scene = load_scene(arguments, &graph, &scene_overrides, out)?;
     Some(Loaded { graph, scene, load_us, validate_us })
 }

@@ -25,8 +25,12 @@ pub(crate) fn write_port(executor: &Executor, port: u32, path: &Path) -> Result<
     if data.is_image {
         return Ok(tyndall_image::write(path, &image(data), meaning)?);
     }
-    let name = executor.plan().port_name(port);
-    Err(Failure::Usage(format!("`{name}` is no two-dimensional picture, so {} cannot hold it: write .npy", path.display())))
+    Err(no_picture(executor.plan().port_name(port), path))
+}
+
+/// Only `.npy` holds what is no two-dimensional texture.
+pub(crate) fn no_picture(name: impl std::fmt::Display, path: &Path) -> Failure {
+    Failure::Usage(format!("`{name}` is no two-dimensional picture, so {} cannot hold it: write .npy", path.display()))
 }
 
 /// The file that `--dump` writes for a port.

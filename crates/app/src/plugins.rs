@@ -18,10 +18,16 @@ pub(crate) fn registry(app: &App, arguments: &Arguments, beside: &[&Path]) -> Re
     let folders = find_folders(&paths)?;
     let shared = shader_modules(tyndall_shaders::MODULES, &paths)?;
     let crates = app.plugins.iter().map(|plugin| plugin()).collect();
-    Registry::new(crates, folders, &shared, tyndall_scene::SCENE_DATA).map_err(|mut mistakes: Diagnostics| {
+    let registry = Registry::new(crates, folders, &shared, tyndall_scene::SCENE_DATA);
+    let registry = registry.map_err(|mut mistakes: Diagnostics| {
         mistakes.dedup();
         Failure::Mistakes(mistakes)
-    })
+    })?;
+    Ok(registry.with_picture_size(picture_size))
+}
+
+fn picture_size(path: &Path) -> Option<(u32, u32)> {
+    tyndall_image::read(path).ok().map(|picture| (picture.width, picture.height))
 }
 
 /// Where plugins are looked for: the command line, the environment, `plugins` beside the graph, `plugins` here.

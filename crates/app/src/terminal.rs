@@ -22,3 +22,15 @@ pub(crate) fn error(text: &str) {
 pub(crate) fn color() -> bool {
     stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }
+
+/// Where there is no desktop, Mesa's device-select layer writes an error about `XDG_RUNTIME_DIR` to standard error at every
+/// start. It has nothing to select by then, unless somebody asked it to.
+#[allow(unsafe_code, reason = "setting a variable is sound while the program has one thread, which is so at its start")]
+pub(crate) fn quieten_device_select() {
+    let is_set = |name: &str| std::env::var_os(name).is_some();
+    let asked = is_set("MESA_VK_DEVICE_SELECT") || is_set("DRI_PRIME") || is_set("NODEVICE_SELECT");
+    if cfg!(target_os = "linux") && !is_set("XDG_RUNTIME_DIR") && !asked {
+        // SAFETY: `App::run` calls this before anything has started a thread.
+        unsafe { std::env::set_var("NODEVICE_SELECT", "1") };
+    }
+}

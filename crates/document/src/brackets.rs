@@ -39,8 +39,6 @@ impl Reader<'_> {
             Some(())
         })?;
         duplicate::report_keys(self, &entries);
-        // Most are short, and a vector begins with room for four.
-        entries.shrink_to_fit();
         Some(Node { span: span(start, self.at), value: Value::Map(entries) })
     }
 
@@ -74,8 +72,6 @@ impl Reader<'_> {
             Some(())
         })?;
         duplicate::report_fields(self, &fields);
-        fields.shrink_to_fit();
-        items.shrink_to_fit();
         let value = match (fields.is_empty(), items.is_empty()) {
             (true, true) => Value::Unit,
             (true, false) => Value::Tuple(items),

@@ -168,9 +168,9 @@ fn layout_entry(resource: &Resource) -> wgpu::BindGroupLayoutEntry {
             format: crate::slots::texture_format(*format),
             view_dimension: view_dimension(*dimension, *arrayed),
         },
-        ResourceKind::Uniform { .. } => buffer(wgpu::BufferBindingType::Uniform),
-        ResourceKind::StorageBuffer { read_only, .. } => {
-            buffer(wgpu::BufferBindingType::Storage { read_only: *read_only })
+        ResourceKind::Uniform { size, .. } => buffer(wgpu::BufferBindingType::Uniform, *size),
+        ResourceKind::StorageBuffer { read_only, size, .. } => {
+            buffer(wgpu::BufferBindingType::Storage { read_only: *read_only }, *size)
         }
         ResourceKind::Sampler { comparison, filtering } => wgpu::BindingType::Sampler(match (comparison, filtering) {
             (true, _) => wgpu::SamplerBindingType::Comparison,
@@ -194,8 +194,11 @@ fn view_dimension(dimension: naga::ImageDimension, arrayed: bool) -> wgpu::Textu
     }
 }
 
-fn buffer(ty: wgpu::BufferBindingType) -> wgpu::BindingType {
-    wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None }
+/// A buffer of at least `bytes`. That this is said here and not left open saves wgpu a check (and an allocation) in every
+/// dispatch. A struct's size is rounded up to its alignment, which is 16 at most; so are all our buffers.
+fn buffer(ty: wgpu::BufferBindingType, bytes: u32) -> wgpu::BindingType {
+    let min_binding_size = wgpu::BufferSize::new(u64::from(bytes).next_multiple_of(16));
+    wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size }
 }
 
 /// The uniform that holds a pass's parameters, member by member.
@@ -263,15 +266,31 @@ pub(crate) fn each_number(value: &ParamValue, descriptor: &ParamDescriptor, mut 
     }
 }
 
-/// Pipelines and shader modules that outlive a plan: the same shader with the same constants is compiled once.
+/// Shader modules and compute pipelines that outlive a plan, of one device: the same shader with the same constants is
+/// compiled once.
 #[derive(Default)]
 pub struct PipelineCache {
     modules: HashMap<u64, wgpu::ShaderModule>,
+    pipelines: HashMap<PipelineKey, wgpu::ComputePipeline>,
+}
+
+/// What tells one compute pipeline from another; the layout follows from the shader.
+#[derive(PartialEq, Eq, Hash)]
+struct PipelineKey {
+    shader: u64,
+    label: String,
+    entry: String,
+    constants: Vec<(String, u64)>,
 }
 
 impl PipelineCache {
     /// The shader as a module of the device.
-    pub(crate) fn module(&mut self, gpu: &Gpu, linked: &Arc<Linked>, label: &str) -> Result<wgpu::ShaderModule, GpuError> {
+    pub(crate) fn module(
+        &mut self,
+        gpu: &Gpu,
+        linked: &Arc<Linked>,
+        label: &str,
+    ) -> Result<wgpu::ShaderModule, GpuError> {
         if let Some(module) = self.modules.get(&linked.fingerprint) {
             return Ok(module.clone());
         }
@@ -283,6 +302,44 @@ impl PipelineCache {
         })?;
         self.modules.insert(linked.fingerprint, module.clone());
         Ok(module)
+    }
+
+    /// The pipeline of an entry point with these constants.
+    pub(crate) fn compute(
+        &mut self,
+        gpu: &Gpu,
+        linked: &Arc<Linked>,
+        (label, entry): (&str, &str),
+        layout: &wgpu::BindGroupLayout,
+        constants: &[(&str, f64)],
+    ) -> Result<wgpu::ComputePipeline, GpuError> {
+        let key = PipelineKey {
+            shader: linked.fingerprint,
+            label: label.to_owned(),
+            entry: entry.to_owned(),
+            constants: constants.iter().map(|(name, value)| ((*name).to_owned(), value.to_bits())).collect(),
+        };
+        if let Some(pipeline) = self.pipelines.get(&key) {
+            return Ok(pipeline.clone());
+        }
+        let module = self.module(gpu, linked, label)?;
+        let pipeline = gpu.create(&format!("the pipeline of {label}"), 2, |device| {
+            let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(label),
+                bind_group_layouts: &[Some(layout)],
+                immediate_size: 0,
+            });
+            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(label),
+                layout: Some(&layout),
+                module: &module,
+                entry_point: Some(entry),
+                compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
+                cache: None,
+            })
+        })?;
+        self.pipelines.insert(key, pipeline.clone());
+        Ok(pipeline)
     }
 }
 

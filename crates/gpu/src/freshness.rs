@@ -58,8 +58,9 @@ impl Freshness {
             })
             .collect();
         let mut roots = vec![false; plan.ports.len()];
-        for &port in &plan.roots {
-            roots[port as usize] = true;
+        for (index, port) in plan.ports.iter().enumerate() {
+            // What a history carries over is copied at the end of the frame, whoever else has read it.
+            roots[index] = port.root || port.carried;
         }
         Self {
             fixed,

@@ -28,25 +28,10 @@ impl Kernel {
         let workgroup = found.map(|point| point.workgroup_size).filter(|size| size.iter().all(|threads| *threads > 0));
         let workgroup = workgroup
             .ok_or_else(|| setup.pass.refuse(format!("its shader has no compute entry point `{entry}`")))?;
-        let module = setup.cache.module(setup.gpu, linked, &label)?;
         let bindings = Bindings::new(setup.gpu, linked, setup.pass, setup.scene, &label)?;
         let constants = constants(linked, setup.pass, setup.values);
         let constants: Vec<(&str, f64)> = constants.iter().map(|(name, value)| (name.as_str(), *value)).collect();
-        let pipeline = setup.gpu.create(&format!("the pipeline of {label}"), 2, |device| {
-            let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some(&label),
-                bind_group_layouts: &[Some(bindings.layout())],
-                immediate_size: 0,
-            });
-            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(&label),
-                layout: Some(&layout),
-                module: &module,
-                entry_point: Some(entry),
-                compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
-                cache: None,
-            })
-        })?;
+        let pipeline = setup.cache.compute(setup.gpu, linked, (&label, entry), bindings.layout(), &constants)?;
         Ok(Self { pipeline, bindings, workgroup, label })
     }
 }

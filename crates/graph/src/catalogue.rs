@@ -1,5 +1,6 @@
 //! Every pass that a graph file may use, by name.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
@@ -10,6 +11,8 @@ use crate::signature::{DescriptorError, Signature};
 /// Descriptors of every pass, by name.
 #[derive(Debug, Clone, Default)]
 pub struct Catalogue {
+    /// The width and height in texels of the picture in a file, for passes that read pictures. `None`: no picture.
+    pub picture_size: Option<fn(&Path) -> Option<(u32, u32)>>,
     kinds: FxHashMap<String, Arc<Kind>>,
 }
 

@@ -20,6 +20,8 @@ codes! {
     BAD_VERSION = "bad-version";
     /// A size is 0, or more than 32 bits hold.
     BAD_SIZE = "bad-size";
+    /// A file whose picture sets the size of a port holds none.
+    BAD_PICTURE = "bad-picture";
     /// The graph has no outputs.
     NO_OUTPUTS = "no-outputs";
     /// `use` names a pass that no plugin has.

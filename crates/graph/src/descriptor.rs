@@ -285,6 +285,12 @@ impl SizeRule {
         }
     }
 
+    /// The size of the picture that a file parameter names.
+    pub fn picture(param: &str) -> Self {
+        let extent = |axis| Extent::Picture { param: param.to_owned(), axis };
+        Self { width: extent(Axis::X), height: extent(Axis::Y), depth: Extent::Fixed(1) }
+    }
+
     /// A size in texels.
     pub fn fixed(width: u32, height: u32, depth: u32) -> Self {
         Self { width: Extent::Fixed(width), height: Extent::Fixed(height), depth: Extent::Fixed(depth) }
@@ -314,6 +320,13 @@ pub enum Extent {
     },
     /// The value of an integer parameter of the pass.
     Param(String),
+    /// An axis of the picture that a file parameter of the pass names.
+    Picture {
+        /// That parameter.
+        param: String,
+        /// Which of the picture's axes.
+        axis: Axis,
+    },
     /// Texels of the frame (width × height), times a factor: per-pixel lists in buffers.
     FramePixels(f64),
 }
@@ -344,6 +357,7 @@ impl fmt::Display for Extent {
             Extent::Frame { axis, scale } => write!(f, "{}the frame's {axis}", factor(*scale)),
             Extent::Port { port, axis, scale } => write!(f, "{}the {axis} of `{port}`", factor(*scale)),
             Extent::Param(param) => write!(f, "the parameter `{param}`"),
+            Extent::Picture { param, axis } => write!(f, "the {axis} of the picture `{param}`"),
             Extent::FramePixels(scale) => write!(f, "{}the pixels of the frame", factor(*scale)),
         }
     }

@@ -34,6 +34,8 @@ pub struct Graph {
     pub(crate) names: Names,
     /// Where the parameters that set sizes are set; of one that is not, its pass.
     pub(crate) size_param_places: FxHashMap<ParamRef, Place>,
+    /// Width and height of the pictures whose size sets that of a port.
+    pub(crate) pictures: FxHashMap<ParamRef, (u32, u32)>,
     pub(crate) table: Table,
 }
 

@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use support::{With, input, output, param, pass, port, texture};
 use tyndall_graph::descriptor::{
-    Axis, Class, Dimension, Disabled, Extent, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind,
-    Role, SizeRule,
+    Axis, Class, Dimension, Disabled, Extent, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor,
+    PortKind, Role, SizeRule,
 };
 use tyndall_graph::{Catalogue, DescriptorError as E};
 
@@ -25,7 +25,11 @@ fn errors(descriptor: PassDescriptor) -> Vec<E> {
 }
 
 fn of_ports(ports: Vec<PortDescriptor>) -> Vec<E> {
-    errors(pass("test.pass", ports, vec![param("count", ParamValue::Integer(1), None), param("scale", ParamValue::Float(1.0), None)]))
+    errors(pass(
+        "test.pass",
+        ports,
+        vec![param("count", ParamValue::Integer(1), None), param("scale", ParamValue::Float(1.0), None)],
+    ))
 }
 
 fn of_param(param: ParamDescriptor) -> Vec<E> {

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::Path;
 use std::sync::Arc;
 
 use tyndall_document::{Diagnostic, Diagnostics, Place, near};
@@ -81,6 +82,13 @@ impl Registry {
     /// The descriptors, for validation.
     pub fn catalogue(&self) -> &Catalogue {
         &self.catalogue
+    }
+
+    /// Tells how large the pictures in files are, for the passes whose ports have their size.
+    #[must_use]
+    pub fn with_picture_size(mut self, picture_size: fn(&Path) -> Option<(u32, u32)>) -> Self {
+        self.catalogue.picture_size = Some(picture_size);
+        self
     }
 
     /// Every pass, sorted by name.

@@ -21,8 +21,7 @@ pub(crate) fn pass() -> RustPass {
 fn descriptor() -> PassDescriptor {
     PassDescriptor {
         name: "core.image".to_owned(),
-        about: "A picture from a file: EXR, HDR, PNG (decoded to linear) or NPY. It must be as large as the frame; \
-                `core.resize` changes sizes."
+        about: "A picture from a file: EXR, HDR, PNG (decoded to linear) or NPY, in its own size."
             .to_owned(),
         source: String::new(),
         ports: vec![PortDescriptor {
@@ -36,7 +35,7 @@ fn descriptor() -> PassDescriptor {
                 format: Some(Format::Rgba32Float),
                 filtered: false,
             },
-            size: Some(SizeRule::frame(1.0)),
+            size: Some(SizeRule::picture("file")),
             unordered: false,
         }],
         params: vec![ParamDescriptor {
@@ -66,15 +65,9 @@ impl Picture {
         };
         let input = |reason: String| GpuError::Input { pass: setup.pass.name().to_owned(), reason };
         let image = tyndall_image::read(Path::new(path)).map_err(|error| input(error.to_string()))?;
-        let size = match setup.pass.resource(setup.pass.port("color")?) {
-            Some(Resource::Texture { width, height, .. }) => (*width, *height),
-            _ => return Err(setup.pass.refuse("its output is no texture")),
-        };
-        if (image.width, image.height) != size {
-            return Err(input(format!(
-                "{path} is {}x{}, and the frame is {}x{}: render with --size {}x{}",
-                image.width, image.height, size.0, size.1, image.width, image.height
-            )));
+        match setup.pass.resource(setup.pass.port("color")?) {
+            Some(Resource::Texture { width, height, .. }) if (*width, *height) == (image.width, image.height) => {}
+            _ => return Err(input(format!("{path} has changed its size since the graph was read: start again"))),
         }
         let texels = rgba(&image);
         let mut hasher = DefaultHasher::new();

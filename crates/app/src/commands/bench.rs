@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use serde_json::{Value, json};
 use tyndall_gpu::{FrameOptions, Gpu, PipelineCache, Timing, bytes};
-use tyndall_graph::descriptor::ParamValue;
+use tyndall_graph::descriptor::{ParamDescriptor, ParamValue};
 use tyndall_graph::{Graph, Plan, Roots};
 
 use crate::App;
@@ -137,12 +137,16 @@ impl Varied {
         let wrong = || Failure::Usage(format!("--vary {text} is not NAME=A..B"));
         let (name, range) = text.split_once('=').ok_or_else(wrong)?;
         let (from, to) = range.split_once("..").ok_or_else(wrong)?;
-        let (from, to) = (from.parse().map_err(|_| wrong())?, to.parse().map_err(|_| wrong())?);
-        let targets = graph.find_params(name).into_iter().map(|found| {
+        let (from, to): (f64, f64) = (from.parse().map_err(|_| wrong())?, to.parse().map_err(|_| wrong())?);
+        let mut targets = Vec::new();
+        for found in graph.find_params(name) {
             let pass = graph.pass(found.pass);
-            (pass.name.clone(), pass.descriptor().params[found.param as usize].name.clone())
-        });
-        let targets: Vec<(String, String)> = targets.collect();
+            let param = &pass.descriptor().params[found.param as usize];
+            if let Some(reason) = why_not(param, from, to) {
+                return Err(Failure::Usage(format!("--vary {text}: `{}` of pass `{}` {reason}", param.name, pass.name)));
+            }
+            targets.push((pass.name.clone(), param.name.clone()));
+        }
         if targets.is_empty() {
             return Err(Failure::Usage(format!("--vary {text}: the graph has no parameter `{name}`")));
         }
@@ -156,6 +160,17 @@ impl Varied {
             running.executor.set_param(pass, param, ParamValue::Float(value))?;
         }
         Ok(())
+    }
+}
+
+/// Why a parameter cannot run from one value to another.
+fn why_not(param: &ParamDescriptor, from: f64, to: f64) -> Option<String> {
+    let (low, high) = param.range.unwrap_or((f64::MIN, f64::MAX));
+    match param.default {
+        _ if param.fixed => Some("is a part of the pipeline, and cannot change while it runs".to_owned()),
+        ParamValue::Float(_) if [from, to].iter().all(|value| (low..=high).contains(value)) => None,
+        ParamValue::Float(_) => Some(format!("takes numbers from {low} to {high}")),
+        _ => Some("is no number that can run".to_owned()),
     }
 }
 

@@ -158,6 +158,9 @@ fn size(rule: &SizeRule) -> String {
     {
         return if *scale == 1.0 { format!("as large as {port}") } else { format!("{scale} of {port}") };
     }
+    if let Extent::Picture { param, .. } = &rule.width {
+        return format!("as large as the picture `{param}`");
+    }
     if let Extent::Frame { axis: Axis::X, scale } = rule.width {
         let layers = match rule.depth {
             Extent::Fixed(layers) if layers > 1 => format!(", {layers} layers"),
@@ -175,6 +178,7 @@ fn extent(extent: &Extent) -> String {
         Extent::Frame { scale, .. } => format!("{scale} of the frame"),
         Extent::Port { port, scale, .. } => format!("{scale} of {port}"),
         Extent::Param(name) => name.clone(),
+        Extent::Picture { param, axis } => format!("{axis} of the picture `{param}`"),
         Extent::FramePixels(scale) => format!("{scale} per pixel"),
     }
 }

@@ -4,16 +4,16 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use tyndall_document::Place;
-use tyndall_gpu::{FrameOptions, Gpu, PipelineCache};
-use tyndall_graph::descriptor::Class;
-use tyndall_graph::{Graph, PortRef, Roots};
-use tyndall_image::{frame_path, has_frame_number, supported};
+use tyndall_gpu::{Executor, FrameOptions, Gpu, PipelineCache};
+use tyndall_graph::descriptor::{Dimension, PortKind};
+use tyndall_graph::{Graph, PortRef, Resource, Roots};
+use tyndall_image::{FileKind, frame_path, has_frame_number, supported};
 
 use crate::App;
 use crate::cli::{Arguments, Render};
 use crate::failure::Failure;
 use crate::loading::{self, Loaded, Wanted};
-use crate::pictures::{dump_path, write_port};
+use crate::pictures::{dump_path, no_picture, write_port};
 use crate::running::Running;
 use crate::{plugins, terminal};
 
@@ -77,11 +77,13 @@ fn outputs(verb: &Render, graph: &Graph) -> Result<Vec<Output>, Failure> {
         let port = graph.find(name.trim(), place)?;
         outputs.push(Output { port, pattern: PathBuf::from(file) });
     }
-    if verb.output.is_empty() && verb.dump.is_none() {
+    if verb.output.is_empty() {
         outputs = default_outputs(verb, graph);
     }
     for output in &outputs {
-        supported(&output.pattern)?;
+        if supported(&output.pattern)? != FileKind::Npy && !is_picture(graph, output.port) {
+            return Err(no_picture(graph.port_name(output.port), &output.pattern));
+        }
         let many = verb.frames.is_some_and(|(first, end)| end - first > 1);
         if many && !has_frame_number(&output.pattern) {
             let path = output.pattern.display();
@@ -97,19 +99,18 @@ fn default_outputs(verb: &Render, graph: &Graph) -> Vec<Output> {
     let stem = file.strip_suffix(".graph.ron").or_else(|| file.strip_suffix(".ron")).unwrap_or(&file);
     let number = if verb.frames.is_some() { ".####" } else { "" };
     let path = |name: &str, port: PortRef| {
-        let suffix = match &graph.port(port).kind {
-            _ if name == "image" => "png",
-            tyndall_graph::descriptor::PortKind::Texture {
-                dimension: tyndall_graph::descriptor::Dimension::D2,
-                class,
-                ..
-            } if *class != Class::Display => "exr",
-            tyndall_graph::descriptor::PortKind::Texture { class: Class::Display, .. } => "png",
-            _ => "npy",
+        let suffix = match name {
+            _ if !is_picture(graph, port) => "npy",
+            "image" => "png",
+            _ => "exr",
         };
         Path::new("out").join(format!("{stem}.{name}{number}.{suffix}"))
     };
     graph.outputs.iter().map(|(name, port)| Output { port: *port, pattern: path(name, *port) }).collect()
+}
+
+fn is_picture(graph: &Graph, port: PortRef) -> bool {
+    matches!(graph.port(port).kind, PortKind::Texture { dimension: Dimension::D2, .. })
 }
 
 fn write_frame(running: &Running<'_>, verb: &Render, outputs: &[Output], frame: u32) -> Result<(), Failure> {
@@ -120,7 +121,7 @@ fn write_frame(running: &Running<'_>, verb: &Render, outputs: &[Output], frame: 
         let port = executor.plan().planned(output.port);
         let port = port.ok_or_else(|| Failure::Usage(format!("`{}` is in no pass that runs", name())))?;
         write_port(executor, port, &path)?;
-        told(&path, running);
+        told(&path, executor, port);
     }
     if let Some(folder) = &verb.dump {
         let many = verb.frames.is_some_and(|(first, end)| end - first > 1);
@@ -128,16 +129,19 @@ fn write_frame(running: &Running<'_>, verb: &Render, outputs: &[Output], frame: 
         for port in 0..executor.plan().ports.len() as u32 {
             let path = dump_path(executor, port, &folder);
             write_port(executor, port, &path)?;
-            told(&path, running);
+            told(&path, executor, port);
         }
     }
     Ok(())
 }
 
-fn told(path: &Path, running: &Running<'_>) {
-    let (width, height) = running.executor.plan().size;
+fn told(path: &Path, executor: &Executor, port: u32) {
+    let size = match executor.plan().resource(port) {
+        Resource::Texture { width, height, .. } => format!("{width}x{height}, "),
+        Resource::Buffer { .. } => String::new(),
+    };
     let bytes = std::fs::metadata(path).map_or(0, |data| data.len());
-    terminal::line(&format!("wrote {}  ({width}x{height}, {})", path.display(), tyndall_gpu::bytes(bytes)));
+    terminal::line(&format!("wrote {}  ({size}{})", path.display(), tyndall_gpu::bytes(bytes)));
 }
 
 /// A bar where somebody looks at a terminal and there is something to wait for.

@@ -2,10 +2,12 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+mod accuracy;
 mod bench;
 mod check;
 mod contributing;
 mod exit_codes;
+mod physics;
 mod pictures;
 mod render;
 mod run;

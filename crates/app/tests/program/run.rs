@@ -1,7 +1,9 @@
 //! Starts the program in a folder of its own.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output};
+
+use tyndall_image::Image;
 
 /// A folder outside the repository, with a graph and a scene in it; gone at the end of the test.
 pub struct Desk {
@@ -16,6 +18,17 @@ pub struct Ended {
     pub out: String,
     /// Standard error.
     pub err: String,
+}
+
+impl Ended {
+    /// A panic is never the right end.
+    pub fn of(arguments: &[&str], output: &Output) -> Self {
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        let ended =
+            Self { code: output.status.code().unwrap_or(-1), out: text(&output.stdout), err: text(&output.stderr) };
+        assert!(!ended.err.contains("panicked"), "{arguments:?}: {}", ended.err);
+        ended
+    }
 }
 
 /// A lamp and a sun in coloured fog over a floor with a sphere; the sky is not black.
@@ -69,16 +82,16 @@ impl Desk {
         names
     }
 
-    /// Runs the program in the folder, with its output in pipes.
-    pub fn run(&self, arguments: &[&str]) -> Ended {
+    /// The program, to be started in the folder.
+    pub fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_tyndall"));
         command.args(arguments).current_dir(self.folder.path()).env_remove("TYNDALL_PLUGIN_PATH");
-        let output = command.output().unwrap();
-        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-        let ended =
-            Ended { code: output.status.code().unwrap_or(-1), out: text(&output.stdout), err: text(&output.stderr) };
-        assert!(!ended.err.contains("panicked"), "{arguments:?}: {}", ended.err);
-        ended
+        command
+    }
+
+    /// Runs the program in the folder, with its output in pipes.
+    pub fn run(&self, arguments: &[&str]) -> Ended {
+        Ended::of(arguments, &self.command(arguments).output().unwrap())
     }
 
     /// Runs the program, which must end with this code.
@@ -86,5 +99,16 @@ impl Desk {
         let ended = self.run(arguments);
         assert_eq!(ended.code, code, "{arguments:?}\n{}{}", ended.out, ended.err);
         ended
+    }
+
+    /// Renders an output (or port) and reads it again: three channels, or one.
+    pub fn picture(&self, graph: &Path, scene: &Path, size: &str, port: &str, settings: &[&str]) -> Image {
+        let file = format!("{port}.npy");
+        let output = format!("{port}={file}");
+        let (graph, scene) = (graph.to_str().unwrap(), scene.to_str().unwrap());
+        let mut arguments = vec!["render", graph, "--scene", scene, "--size", size, "--output", &output];
+        settings.iter().for_each(|setting| arguments.extend(["--set", setting]));
+        self.ends(0, &arguments);
+        tyndall_image::read(&self.path(&file)).unwrap()
     }
 }

@@ -68,7 +68,7 @@ impl Chain<'_> {
                     format!("the frame is {}×{}", self.plan.size.0, self.plan.size.1)
                 }
                 Extent::Param(param) => self.param_words(pass, param),
-                Extent::Fixed(_) | Extent::Port { .. } => continue,
+                Extent::Fixed(_) | Extent::Port { .. } | Extent::Picture { .. } => continue,
             };
             if !known.contains(&fact) {
                 known.push(fact);

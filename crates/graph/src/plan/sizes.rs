@@ -1,6 +1,6 @@
 //! How large every port is.
 
-use crate::graph::Graph;
+use crate::graph::{Graph, ParamRef};
 use crate::signature::{Amount, RoleKind, Rule, Signature};
 use crate::table::{Feed, Table};
 
@@ -16,6 +16,8 @@ pub(crate) enum SizeProblem {
     Differs { port: u32, fed: Size, demanded: Size },
     /// A parameter that sets a size is below 1 or beyond 32 bits.
     Param { pass: u32, param: u32, value: i64 },
+    /// A file parameter that sets a size names no picture whose size is known.
+    Picture { pass: u32, param: u32 },
 }
 
 /// The size of every port by its number, and what is wrong with them.
@@ -118,6 +120,13 @@ impl Resolver<'_> {
                     scaled(other[axis], scale)
                 }
                 Amount::Param(param) => self.param(pass, param),
+                Amount::Picture(param, axis) => match self.graph.pictures.get(&ParamRef { pass, param }) {
+                    Some(&(width, height)) => [width, height, 1][axis],
+                    None => {
+                        self.problem(SizeProblem::Picture { pass, param });
+                        return UNKNOWN;
+                    }
+                },
             };
         }
         size
@@ -126,12 +135,15 @@ impl Resolver<'_> {
     fn param(&mut self, pass: u32, param: u32) -> u32 {
         let value = self.graph.size_param(pass, param);
         u32::try_from(value).ok().filter(|extent| *extent > 0).unwrap_or_else(|| {
-            let problem = SizeProblem::Param { pass, param, value };
-            if !self.problems.contains(&problem) {
-                self.problems.push(problem);
-            }
+            self.problem(SizeProblem::Param { pass, param, value });
             1
         })
+    }
+
+    fn problem(&mut self, problem: SizeProblem) {
+        if !self.problems.contains(&problem) {
+            self.problems.push(problem);
+        }
     }
 }
 

@@ -67,6 +67,7 @@ pub(crate) enum Amount {
     Frame(usize, f64),
     Port(u32, usize, f64),
     Param(u32),
+    Picture(u32, usize),
     FramePixels(f64),
 }
 
@@ -103,13 +104,24 @@ impl Signature {
             descriptor.ports.iter().map(|port| resolve(descriptor, port, &mut errors)).collect();
         let size_order = size_order(descriptor, &ports, &mut errors);
         if !errors.is_empty() {
-            return Err(errors);
+            return Err(once(errors));
         }
         let demanding = |port: &u32| ports[*port as usize].role.is_input() && ports[*port as usize].rule.is_some();
         let demands = (0..ports.len() as u32).filter(demanding).collect();
         let size_params = size_params(&ports);
         Ok(Self { ports, size_order, demands, size_params })
     }
+}
+
+/// Each error where it stands first: a rule with three extents can be wrong three times.
+fn once(errors: Vec<DescriptorError>) -> Vec<DescriptorError> {
+    let mut once: Vec<DescriptorError> = Vec::new();
+    for error in errors {
+        if !once.contains(&error) {
+            once.push(error);
+        }
+    }
+    once
 }
 
 /// Orders ports so that each size follows from those before it. An input's size follows from nothing where it is fed;
@@ -143,8 +155,12 @@ fn size_order(descriptor: &PassDescriptor, ports: &[PortSignature], errors: &mut
 
 fn size_params(ports: &[PortSignature]) -> Vec<u32> {
     let amounts = ports.iter().filter_map(|port| port.rule).flat_map(Rule::amounts);
-    let mut params: Vec<u32> =
-        amounts.filter_map(|amount| if let Amount::Param(param) = amount { Some(param) } else { None }).collect();
+    let params =
+        amounts.filter_map(|amount| match amount {
+            Amount::Param(param) | Amount::Picture(param, _) => Some(param),
+            _ => None,
+        });
+    let mut params: Vec<u32> = params.collect();
     params.sort_unstable();
     params.dedup();
     params

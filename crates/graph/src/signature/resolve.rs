@@ -79,6 +79,16 @@ fn amount(
                 }
             }
         }
+        Extent::Picture { param: named, axis } => {
+            let is_file = |param: &crate::descriptor::ParamDescriptor| matches!(param.default, ParamValue::File(_));
+            match descriptor.params.iter().position(|param| param.name == *named && is_file(param)) {
+                Some(param) => Amount::Picture(param as u32, index_of(*axis)),
+                None => {
+                    errors.push(DescriptorError::UnknownSizeParam { port: name(), named: named.clone() });
+                    Amount::Fixed(1)
+                }
+            }
+        }
         Extent::Param(named) => match descriptor.params.iter().position(|param| param.name == *named) {
             Some(param) if matches!(descriptor.params[param].default, ParamValue::Integer(_)) => {
                 Amount::Param(param as u32)

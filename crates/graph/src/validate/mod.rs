@@ -85,6 +85,7 @@ struct Validator<'a> {
     /// By port: what flows into it if every pass were switched on.
     written: Vec<Feed>,
     size_param_places: FxHashMap<ParamRef, Place>,
+    pictures: FxHashMap<ParamRef, (u32, u32)>,
     /// By port of the pass that is being connected: whether the file names it.
     named: Vec<bool>,
 }
@@ -112,6 +113,7 @@ impl<'a> Validator<'a> {
             table: Table::default(),
             written: Vec::new(),
             size_param_places: FxHashMap::default(),
+            pictures: FxHashMap::default(),
             named: Vec::new(),
         }
     }
@@ -141,6 +143,7 @@ impl<'a> Validator<'a> {
             outputs,
             names: std::mem::take(&mut self.names),
             size_param_places: std::mem::take(&mut self.size_param_places),
+            pictures: std::mem::take(&mut self.pictures),
             table: std::mem::take(&mut self.table),
         };
         graph.table.kinds = self.kinds.iter().map(|kind| (*kind).clone()).collect();

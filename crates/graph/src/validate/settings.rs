@@ -182,6 +182,14 @@ impl<'a> Validator<'a> {
             let message = format!("`{name}` sets the size of a port, and cannot change from frame to frame");
             self.report(Diagnostic::error(codes::LIVE_SIZE, place.clone(), message));
         }
+        if let ParamSetting::Value(ParamValue::File(path)) = setting {
+            let size = self.catalogue.picture_size.and_then(|size| size(Path::new(path)));
+            // A later setting of the command line replaces that of the file, also where it is no picture.
+            match size {
+                Some(size) => self.pictures.insert(param, size),
+                None => self.pictures.remove(&param),
+            };
+        }
         self.size_param_places.insert(param, place);
     }
 

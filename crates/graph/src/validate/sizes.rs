@@ -6,7 +6,8 @@ use tyndall_document::Diagnostic;
 
 use super::Validator;
 use crate::codes;
-use crate::graph::{Connection, Graph, ParamRef, PortRef};
+use crate::descriptor::ParamValue;
+use crate::graph::{Connection, Graph, ParamRef, ParamSetting, PortRef};
 use crate::plan::sizes::{Size, SizeProblem, sizes};
 
 impl Validator<'_> {
@@ -46,6 +47,19 @@ fn mistake(graph: &Graph, problem: &SizeProblem) -> Option<Diagnostic> {
             let place = graph.size_param_places.get(&ParamRef { pass, param }).cloned();
             let place = place.unwrap_or_else(|| graph.place(of_pass.span));
             Some(Diagnostic::error(codes::BAD_SIZE, place, message).suggest("give a number of 1 or more"))
+        }
+        SizeProblem::Picture { pass, param } => {
+            let of_pass = graph.pass(pass);
+            let name = &of_pass.descriptor().params[param as usize].name;
+            let message = match &of_pass.params[param as usize] {
+                ParamSetting::Value(ParamValue::File(path)) if !path.is_empty() => {
+                    format!("`{name}` names {path}, which is no picture that can be read")
+                }
+                _ => format!("`{name}` of pass `{}` names no picture", of_pass.name),
+            };
+            let place = graph.size_param_places.get(&ParamRef { pass, param }).cloned();
+            let place = place.unwrap_or_else(|| graph.place(of_pass.span));
+            Some(Diagnostic::error(codes::BAD_PICTURE, place, message).suggest("give the path of an EXR, HDR, PNG or NPY file"))
         }
     }
 }

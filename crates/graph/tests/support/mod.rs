@@ -234,6 +234,11 @@ fn forms() -> Vec<PassDescriptor> {
             vec![param("file", ParamValue::File(String::new()), None)],
         ),
         pass(
+            "core.picture",
+            vec![output("image", Class::Color, Format::Rgba32Float).size(SizeRule::picture("file"))],
+            vec![param("file", ParamValue::File(String::new()), None)],
+        ),
+        pass(
             "core.tile",
             vec![output("tile", Class::Color, Format::Rgba32Float).size(SizeRule::fixed(64, 64, 1))],
             vec![],

@@ -97,7 +97,7 @@ fn draw() -> impl Strategy<Value = Draw> {
 
 /// The text of a random graph.
 pub fn text() -> impl Strategy<Value = String> {
-    let size = prop_oneof![1..12usize, 1..60usize, 1..200usize];
+    let size = prop_oneof![1 => 1..12usize, 1 => 1..60usize, 3 => 60..200usize];
     (size.prop_flat_map(|size| prop::collection::vec(draw(), size)), prop::collection::vec(any::<u32>(), 1..6))
         .prop_map(|(draws, outputs)| write_text(&draws, &outputs))
 }

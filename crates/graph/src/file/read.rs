@@ -1,9 +1,10 @@
-//! The spanned tree of a graph file: what the text says, before any name is looked up.
+//! From a text to its tree, and from the tree to a file.
 
 use std::sync::Arc;
 
 use tyndall_document::{Decoder, Diagnostic, Diagnostics, Field, Node, Source, Span, Value, parse};
 
+use super::{GraphFile, InputEntry, OutputEntry, ParamEntry, PassEntry, Spanned, Switch, Text, is_name};
 use crate::codes;
 
 /// The version of the file format that this crate reads.
@@ -11,116 +12,6 @@ pub(crate) const VERSION: i64 = 1;
 
 const GRAPH_FIELDS: &[&str] = &["version", "about", "scene", "size", "params", "passes", "outputs"];
 const PASS_FIELDS: &[&str] = &["use", "inputs", "params", "enabled"];
-
-/// A graph file as it stands in its text.
-#[derive(Debug, Clone)]
-pub struct GraphFile {
-    /// The text.
-    pub source: Arc<Source>,
-    /// What the graph is for; empty where the file does not say.
-    pub about: String,
-    /// Path of the scene, relative to the file.
-    pub scene: Option<Spanned<String>>,
-    /// Size of the frame in pixels.
-    pub size: Option<Spanned<(u32, u32)>>,
-    /// Parameters of the graph, in file order.
-    pub params: Vec<ParamEntry>,
-    /// Passes, in file order.
-    pub passes: Vec<PassEntry>,
-    /// Outputs, in file order.
-    pub outputs: Vec<OutputEntry>,
-    /// Where the outputs stand; the whole file where they do not.
-    pub outputs_span: Span,
-    /// Mistakes were reported while it was read, so that no graph can come of it.
-    pub broken: bool,
-}
-
-/// Something, and where it stands.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Spanned<T> {
-    /// What.
-    pub value: T,
-    /// Where.
-    pub span: Span,
-}
-
-/// A text of the file. Most stand there letter by letter, so only the others are stored; [`GraphFile::text`] reads both.
-#[derive(Debug, Clone)]
-pub struct Text {
-    /// Where, quotes included.
-    pub span: Span,
-    escaped: Option<Box<str>>,
-}
-
-impl GraphFile {
-    /// What a text of this file says.
-    pub fn text<'a>(&'a self, text: &'a Text) -> &'a str {
-        match &text.escaped {
-            Some(text) => text,
-            // As `Text::new` has seen, the quotes are a byte each.
-            None => &self.source.text()[text.span.start as usize + 1..text.span.end as usize - 1],
-        }
-    }
-}
-
-impl Text {
-    fn new(source: &Source, span: Span, text: String) -> Self {
-        let written = source.slice(span);
-        let plain = written.strip_prefix('"').and_then(|written| written.strip_suffix('"')) == Some(&text);
-        Self { span, escaped: (!plain).then(|| text.into_boxed_str()) }
-    }
-}
-
-/// A named value.
-#[derive(Debug, Clone)]
-pub struct ParamEntry {
-    /// Name.
-    pub name: Text,
-    /// Value, or a text `$name`.
-    pub value: Node,
-}
-
-/// A pass of the file.
-#[derive(Debug, Clone)]
-pub struct PassEntry {
-    /// Name.
-    pub name: Text,
-    /// What `use` says; `None` where it is missing, which has been reported.
-    pub kind: Option<Text>,
-    /// Inputs, in file order.
-    pub inputs: Vec<InputEntry>,
-    /// Parameters, in file order.
-    pub params: Vec<ParamEntry>,
-    /// What `enabled` says.
-    pub enabled: Option<Spanned<Switch>>,
-}
-
-/// An input that is fed.
-#[derive(Debug, Clone)]
-pub struct InputEntry {
-    /// Name of the input.
-    pub name: Text,
-    /// `pass.port`; `None` where something else stands there, which has been reported.
-    pub from: Option<Text>,
-}
-
-/// An output of the graph.
-#[derive(Debug, Clone)]
-pub struct OutputEntry {
-    /// Name of the output.
-    pub name: Text,
-    /// `pass.port`.
-    pub from: Text,
-}
-
-/// What `enabled` says.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Switch {
-    /// `true` or `false`.
-    Fixed(bool),
-    /// `"$name"`, without the `$`.
-    Param(String),
-}
 
 /// Reads a graph file, and reports every mistake that can be seen without knowing any pass.
 ///
@@ -327,11 +218,4 @@ fn check_name(decoder: &mut Decoder<'_>, name: &str, span: Span) {
         let rule = "a name is lower-case letters, digits and `_`, and begins with a letter";
         decoder.report(Diagnostic::error(codes::BAD_NAME, place, message).suggest(rule));
     }
-}
-
-/// Whether a text matches `[a-z][a-z0-9_]*`.
-pub(crate) fn is_name(text: &str) -> bool {
-    let mut bytes = text.bytes();
-    bytes.next().is_some_and(|first| first.is_ascii_lowercase())
-        && bytes.all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_')
 }

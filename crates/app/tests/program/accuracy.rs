@@ -1,0 +1,164 @@
+//! Pictures through the program against reference data that this project did not compute (see `reference/README.md`).
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use tyndall_image::metrics::{Percentiles, percentiles, relative_errors};
+use tyndall_image::{Image, read_array};
+
+use crate::run::{Desk, shipped};
+
+/// 99 of 100 numbers are measured to be within 2e-4; three roundings of f32 in sums of 12 nodes leave no less.
+const P99: f64 = 1e-3;
+/// What the project promises of any segment. The worst pixels are those beside a lamp: a ray that passes it at `h`
+/// is as bright as 1/h, and the f32 position of the lamp alone moves h.
+const MAX: f64 = 6e-3;
+/// Errors of single pixels go both ways, so that a sum must be better than they are.
+const SUM: f64 = 5e-4;
+
+const AIRLIGHT: [&str; 9] = [
+    "glow_g0.5",
+    "glow_g0.9",
+    "glow_rayleigh",
+    "lamp_behind",
+    "spot",
+    "ground_sphere",
+    "box",
+    "sphere",
+    "box_sphere",
+];
+const SURFACES: [&str; 6] = ["spot", "ground_sphere", "ground_phong", "box", "sphere", "box_sphere"];
+
+fn reference(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference").join(name)
+}
+
+/// Pixels of a reference picture.
+struct Samples(Vec<[f32; 5]>);
+
+impl Samples {
+    fn of(name: &str, term: &str) -> Self {
+        let array = read_array(&reference(&format!("{name}.{term}.npy"))).unwrap();
+        assert!(array.shape[0] >= 1_400 && array.shape[1] == 5, "{name}: {:?}", array.shape);
+        Self(array.data.as_chunks().0.to_vec())
+    }
+
+    /// Relative errors of a picture; where the reference is black the picture must be, too.
+    fn errors(&self, picture: &Image) -> Percentiles {
+        assert_eq!((picture.width, picture.height), (160, 120));
+        let error = |sample: &[f32; 5], channel: usize| {
+            let wanted = f64::from(sample[2 + channel]);
+            let found = f64::from(picture.pixel(sample[0] as u32, sample[1] as u32).unwrap()[channel]);
+            match (found - wanted).abs() {
+                0.0 => 0.0,
+                difference if difference.is_finite() => difference / wanted.abs(),
+                _ => f64::INFINITY,
+            }
+        };
+        let mut errors: Vec<f64> = self.0.iter().flat_map(|sample| [0, 1, 2].map(|channel| error(sample, channel))).collect();
+        percentiles(&mut errors).unwrap()
+    }
+}
+
+fn sums(picture: &Image) -> [f64; 3] {
+    let mut sums = [0.0; 3];
+    for pixel in picture.data.chunks_exact(3) {
+        (0..3).for_each(|channel| sums[channel] += f64::from(pixel[channel]));
+    }
+    sums
+}
+
+fn sum_error(name: &str, picture: &Image) -> f64 {
+    let text = std::fs::read_to_string(reference("sums.json")).unwrap();
+    let wanted: BTreeMap<String, [f64; 3]> = serde_json::from_str::<serde_json::Value>(&text)
+        .unwrap()
+        .as_object()
+        .unwrap()
+        .iter()
+        .map(|(name, sum)| (name.clone(), [0, 1, 2].map(|channel| sum[channel].as_f64().unwrap())))
+        .collect();
+    let errors = sums(picture).into_iter().zip(wanted[name]).map(|(found, wanted)| (found / wanted - 1.0).abs());
+    errors.fold(0.0, f64::max)
+}
+
+fn render(desk: &Desk, graph: &str, name: &str, term: &str, settings: &[&str]) -> Image {
+    let scene = reference(&format!("{name}.scene.ron"));
+    desk.picture(&shipped(graph), &scene, "160x120", term, settings)
+}
+
+#[test]
+fn airlight_agrees_with_the_reference() {
+    let desk = Desk::new();
+    for name in AIRLIGHT {
+        let picture = render(&desk, "airlight", name, "airlight", &[]);
+        let (errors, sum) = (Samples::of(name, "airlight").errors(&picture), sum_error(name, &picture));
+        println!("{name}: p50 {:.1e}, p99 {:.1e}, max {:.1e}, sum {sum:.1e}", errors.p50, errors.p99, errors.max);
+        assert!(errors.p99 <= P99 && errors.max <= MAX && sum <= SUM, "{name}: {errors:?}, sum {sum:e}");
+    }
+}
+
+#[test]
+fn the_fog_graph_draws_the_same_airlight() {
+    let desk = Desk::new();
+    let [fog, alone] = ["fog", "airlight"].map(|graph| render(&desk, graph, "box", "airlight", &[]));
+    assert_eq!(tyndall_image::metrics::differing_bits(&fog, &alone).unwrap(), 0);
+}
+
+#[test]
+fn directly_lit_surfaces_agree_with_the_reference() {
+    let desk = Desk::new();
+    for name in SURFACES {
+        let picture = render(&desk, "fog", name, "surface", &["scattered=false"]);
+        let errors = Samples::of(name, "surface").errors(&picture);
+        println!("{name}: p50 {:.1e}, p99 {:.1e}, max {:.1e}", errors.p50, errors.p99, errors.max);
+        assert!(errors.p99 <= P99 && errors.max <= MAX, "{name}: {errors:?}");
+    }
+}
+
+/// The same comparisons must fail where the picture is wrong.
+#[test]
+fn wrong_pictures_are_noticed() {
+    let desk = Desk::new();
+    let name = "box";
+    let fails = |what: &str, term: &str, picture: &Image| {
+        let errors = Samples::of(name, term).errors(picture);
+        assert!(errors.p99 > P99 && errors.max > MAX, "{what} passes: {errors:?}");
+    };
+    let set = "scene.medium.extinction=(0.05, 0.05, 0.05)";
+    let half = render(&desk, "airlight", name, "airlight", &[set]);
+    fails("half the density", "airlight", &half);
+    assert!(sum_error(name, &half) > SUM);
+    fails("surfaces in half the density", "surface", &render(&desk, "fog", name, "surface", &[set]));
+    let set = "scene.medium.phase=HenyeyGreenstein(0.51)";
+    fails("g of 0.51 for 0.5", "airlight", &render(&desk, "airlight", name, "airlight", &[set]));
+
+    let right = render(&desk, "airlight", name, "airlight", &[]);
+    let shifted = |by: usize| {
+        let mut data = right.data.clone();
+        data.rotate_right(3 * by);
+        Image::new(right.width, right.height, 3, data)
+    };
+    fails("a picture shifted by a column", "airlight", &shifted(1));
+    fails("a picture shifted by a row", "airlight", &shifted(160));
+    let scaled = |factor: f32| Image::new(160, 120, 3, right.data.iter().map(|value| factor * value).collect());
+    assert!(sum_error(name, &scaled(1.001)) > SUM, "a picture brighter by 0.1 % passes");
+    fails("a black picture", "airlight", &scaled(0.0));
+    fails("a picture of NaN", "airlight", &scaled(f32::NAN));
+}
+
+/// Midpoints to the surface, or to an optical depth of 16, beyond which 1e-7 of the light is.
+///
+/// With 1,024 steps a step toward the sky is 0.16 m in this medium. A ray that passes the lamp at less than that jumps
+/// over the peak: its error has no bound (0.4 to 0.7 are measured), and only the part of such rays has one. The samples
+/// have more of them than the picture.
+#[test]
+fn the_march_agrees_with_the_quadrature_within_what_a_march_can() {
+    let desk = Desk::new();
+    for name in ["lamp_behind", "ground_sphere", "glow_g0.5"] {
+        let march = render(&desk, "reference", name, "airlight", &["steps=1024", "scattered=false"]);
+        let errors = Samples::of(name, "airlight").errors(&march);
+        let quadrature = render(&desk, "airlight", name, "airlight", &[]);
+        let whole = relative_errors(&march, &quadrature, 1e-9, None).unwrap();
+        assert!(errors.p50 <= 1e-3 && errors.p99 <= 2e-2 && whole.p99 <= 1e-3, "{name}: {errors:?} {whole:?}");
+    }
+}
