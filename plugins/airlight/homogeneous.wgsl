@@ -14,9 +14,7 @@ var radiance: texture_storage_2d<rgba32float, write>;
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = textureDimensions(radiance);
-    if any(id.xy >= size) {
-        return;
-    }
+    let count = lights.count;
     let ray = ray_of_pixel(camera, id.xy, size);
     let way = textureLoad(depth, id.xy, 0).x;
     var sum = vec3<f32>(0.0);
@@ -26,7 +24,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let piece = airlight(cursor, lights.items[cursor.light], medium, ray, way, nodes);
         sum += piece.radiance;
         cursor = piece.next;
-        if cursor.light >= lights.count { break; }
+        if cursor.light >= count { break; }
     }
-    textureStore(radiance, id.xy, vec4<f32>(sum, 1.0));
+    // no early return above: outside of branches software Vulkan reads the scene's data once for all threads
+    if all(id.xy < size) {
+        textureStore(radiance, id.xy, vec4<f32>(sum, 1.0));
+    }
 }

@@ -81,9 +81,7 @@ fn march_directional(light: Light, phase: Phase, direction: vec3<f32>, way: f32)
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = textureDimensions(radiance);
-    if any(id.xy >= size) {
-        return;
-    }
+    let count = lights.count;
     let ray = ray_of_pixel(camera, id.xy, size);
     let least = max(least_extinction(medium), 1e-30);
     let way = min(textureLoad(depth, id.xy, 0).x, MARCH_DEPTH / least);
@@ -98,7 +96,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         sum += march_spot(light, beside, phase, ray.direction, way);
         sum += march_directional(light, phase, ray.direction, way);
         i++;
-        if i >= lights.count { break; }
+        if i >= count { break; }
     }
-    textureStore(radiance, id.xy, vec4<f32>(select(vec3<f32>(0.0), sum, medium.scattering > vec3<f32>(0.0)), 1.0));
+    // no early return above: outside of branches software Vulkan reads the scene's data once for all threads
+    if all(id.xy < size) {
+        textureStore(radiance, id.xy, vec4<f32>(select(vec3<f32>(0.0), sum, medium.scattering > vec3<f32>(0.0)), 1.0));
+    }
 }

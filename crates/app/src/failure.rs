@@ -24,6 +24,8 @@ impl Failure {
     /// 1 a comparison failed, 2 the input or the usage is wrong, 3 the machine cannot do it.
     pub fn exit_code(&self) -> u8 {
         match self {
+            // Whatever else is wrong: with a shader that does not compile there is nothing that a machine could run.
+            Failure::Mistakes(mistakes) if mistakes.iter().any(of_a_shader) => 3,
             Failure::Mistakes(_) | Failure::Usage(_) | Failure::Gpu(GpuError::Input { .. }) => 2,
             Failure::Gpu(_) => 3,
             Failure::File(error) => error.exit_code(),
@@ -41,6 +43,11 @@ impl Failure {
             Failure::Told(_) => {}
         }
     }
+}
+
+/// A shader does not compile, or disagrees with what its pass declares.
+fn of_a_shader(mistake: &Diagnostic) -> bool {
+    tyndall_shader::CODES.contains(&mistake.code)
 }
 
 impl From<GpuError> for Failure {

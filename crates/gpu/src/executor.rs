@@ -7,7 +7,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use tyndall_graph::descriptor::ParamValue;
+use tyndall_graph::descriptor::{ParamDescriptor, ParamValue};
 use tyndall_graph::ParamSetting;
 use tyndall_graph::{Plan, SlotKind, Step};
 
@@ -84,7 +84,7 @@ impl Executor {
         mut scene: SceneBuffers,
     ) -> Result<Self, GpuError> {
         let slots = create_all(gpu, &plan)?;
-        fill_stated(gpu, &plan, &slots);
+        fill_stated(gpu, &plan, &slots)?;
         let values: Vec<Vec<ParamValue>> = 
             positions(&plan).map(|pass| plan.params(pass).iter().map(at_start).collect()).collect();
         let mut ready = Vec::with_capacity(plan.passes.len());
@@ -125,7 +125,8 @@ impl Executor {
     /// Changes a parameter from the next frame on: `pass` and `param` as in the plan.
     ///
     /// # Errors
-    /// [`GpuError::Pass`] where there is no such parameter, or where it is a part of the pipeline.
+    /// [`GpuError::Pass`] where there is no such parameter, where it is a part of the pipeline, or where the value is not
+    /// of its type. Ranges are not checked.
     pub fn set_param(&mut self, pass: &str, param: &str, value: ParamValue) -> Result<(), GpuError> {
         let refuse = |reason: &str| GpuError::Pass { pass: pass.to_owned(), reason: format!("`{param}` {reason}") };
         let at = positions(&self.plan).find(|position| self.plan.pass_name(*position) == pass);
@@ -136,19 +137,26 @@ impl Executor {
         if descriptor.params[index].fixed {
             return Err(refuse("is a part of the pipeline: plan anew to change it"));
         }
+        if !is_of_type(&descriptor.params[index], &value) {
+            return Err(refuse("cannot have a value of this type"));
+        }
         self.values[at as usize][index] = value;
         self.live.retain(|&(pass, param, _)| (pass, param) != (at as usize, index));
         Ok(())
     }
 
     /// Fills every transient slot with this value (NaN, say), as if something else had been there.
-    pub fn poison(&mut self, value: f32) {
+    ///
+    /// # Errors
+    /// A lost device.
+    pub fn poison(&mut self, value: f32) -> Result<(), GpuError> {
         for (slot, physical) in self.plan.slots.iter().zip(&self.slots) {
             if matches!(slot.kind, SlotKind::Transient | SlotKind::Kept) {
-                fill(&self.gpu, &slot.resource, physical, [value; 4]);
+                fill(&self.gpu, &slot.resource, physical, [value; 4])?;
             }
         }
         self.freshness.forget();
+        Ok(())
     }
 
     /// Records and submits one frame. Does not wait for it unless it is timed on the GPU.
@@ -289,6 +297,15 @@ pub const FRAMES_PER_SECOND: f64 = 24.0;
 /// Positions of a plan's passes.
 fn positions(plan: &Plan) -> std::ops::Range<u32> {
     0..plan.passes.len() as u32
+}
+
+/// Whether a parameter can have this value, ranges apart.
+fn is_of_type(param: &ParamDescriptor, value: &ParamValue) -> bool {
+    match (&param.default, value) {
+        (ParamValue::Vector(default), ParamValue::Vector(value)) => default.len() == value.len(),
+        (ParamValue::Choice(_), ParamValue::Choice(word)) => param.choices.contains(word),
+        (default, value) => std::mem::discriminant(default) == std::mem::discriminant(value),
+    }
 }
 
 fn at_start(setting: &ParamSetting) -> ParamValue {

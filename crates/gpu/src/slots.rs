@@ -118,17 +118,21 @@ fn usages(slot: &Slot) -> wgpu::TextureUsages {
 }
 
 /// Fills the slots whose content is stated by the plan: constants, and histories before the first frame.
-pub(crate) fn fill_stated(gpu: &Gpu, plan: &Plan, slots: &[Physical]) {
+pub(crate) fn fill_stated(gpu: &Gpu, plan: &Plan, slots: &[Physical]) -> Result<(), GpuError> {
     for (slot, physical) in plan.slots.iter().zip(slots) {
         if let Some(value) = slot.initial() {
-            fill(gpu, &slot.resource, physical, value);
+            fill(gpu, &slot.resource, physical, value)?;
         }
     }
+    Ok(())
 }
 
 /// Writes one value into every texel, or every four bytes of a buffer.
-pub(crate) fn fill(gpu: &Gpu, resource: &Resource, physical: &Physical, value: [f32; 4]) {
-    match (physical, resource) {
+pub(crate) fn fill(gpu: &Gpu, resource: &Resource, physical: &Physical, value: [f32; 4]) -> Result<(), GpuError> {
+    gpu.create("what a slot is filled with", 0, |device| match (physical, resource) {
+        (Physical::Texture { view, .. }, Resource::Texture { format: Format::Depth32Float, .. }) => {
+            clear_depth(gpu, device, view, value[0]);
+        }
         (Physical::Texture { texture, .. }, Resource::Texture { format, width, height, depth_or_layers, .. }) => {
             let texel = texel(*format, value);
             let count = *width as usize * *height as usize * *depth_or_layers as usize;
@@ -149,7 +153,23 @@ pub(crate) fn fill(gpu: &Gpu, resource: &Resource, physical: &Physical, value: [
             gpu.queue.write_buffer(buffer, 0, &data);
         }
         (Physical::Texture { .. }, Resource::Buffer { .. }) => {}
-    }
+    })
+}
+
+/// A depth buffer cannot be copied into, only cleared; to a value within 0 and 1.
+fn clear_depth(gpu: &Gpu, device: &wgpu::Device, view: &wgpu::TextureView, value: f32) {
+    let depth = if value.is_nan() { 0.5 } else { value.clamp(0.0, 1.0) };
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("fill") });
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("fill"),
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(depth), store: wgpu::StoreOp::Store }),
+            stencil_ops: None,
+        }),
+        ..Default::default()
+    });
+    gpu.queue.submit([encoder.finish()]);
 }
 
 /// A value as the bytes of one texel.

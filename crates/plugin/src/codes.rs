@@ -2,9 +2,9 @@
 
 use tyndall_document::Code;
 
-/// Two plugins have the same name.
+/// Two plugins on one search path have the same name.
 pub const DUPLICATE_PLUGIN: Code = Code("duplicate-plugin");
-/// A name that cannot be one, or that disagrees with its folder's.
+/// A name that cannot be one.
 pub const BAD_PLUGIN_NAME: Code = Code("bad-plugin-name");
 /// A version that is not `MAJOR.MINOR.PATCH`.
 pub const BAD_VERSION: Code = Code("bad-version");

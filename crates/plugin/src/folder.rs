@@ -23,6 +23,8 @@ pub enum Origin {
 pub struct Folder {
     /// Where they come from.
     pub origin: Origin,
+    /// Number of the search path that it was found on: of two plugins of one name, the one on the lower path wins.
+    pub(crate) path: usize,
     pub(crate) files: BTreeMap<String, Arc<Source>>,
 }
 
@@ -35,7 +37,7 @@ impl Folder {
         let source = |(file, text): &(&str, &str)| {
             ((*file).to_owned(), Source::new(format!("plugins/{name}/{file}"), (*text).to_owned()))
         };
-        Self { origin: Origin::BuiltIn, files: files.iter().map(source).collect() }
+        Self { origin: Origin::BuiltIn, path: 0, files: files.iter().map(source).collect() }
     }
 
     /// The manifest and all WGSL files of a folder on disk (not of folders in it).
@@ -55,7 +57,7 @@ impl Folder {
                 files.insert(name.to_owned(), Source::read(&file)?);
             }
         }
-        Ok(Self { origin: Origin::Folder(path.to_owned()), files })
+        Ok(Self { origin: Origin::Folder(path.to_owned()), path: 0, files })
     }
 
     /// A file by its name.

@@ -50,7 +50,8 @@ enum Make {
 
 impl Registry {
     /// Links and checks every pass: those of crates, and those of folders found at run time. A folder of the same name
-    /// as a crate's plugin replaces that plugin's embedded files.
+    /// as a crate's plugin replaces that plugin's embedded files, and one on an earlier search path wins over one on a
+    /// later path; two on one path are a mistake.
     ///
     /// # Errors
     /// Every mistake of every manifest and shader.
@@ -139,13 +140,17 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// Reads the manifests of folders; of two plugins of one name the second is refused.
+    /// Reads the manifests of folders, which stand in order of search path. Of two plugins of one name the first is
+    /// taken; the second is a mistake where it is on the same path.
     fn manifests(&mut self, folders: Vec<Folder>) -> Vec<(Manifest, Folder)> {
         let mut found: Vec<(Manifest, Folder)> = Vec::new();
         for folder in folders {
             let Some(source) = folder.file(MANIFEST).cloned() else { continue };
             let Some(manifest) = manifest::read(&source, &mut self.out) else { continue };
-            if let Some((first, _)) = found.iter().find(|(other, _)| other.name == manifest.name) {
+            if let Some((first, holder)) = found.iter().find(|(other, _)| other.name == manifest.name) {
+                if holder.path < folder.path {
+                    continue;
+                }
                 let message = format!("there are two plugins named `{}`", manifest.name);
                 let problem = Diagnostic::error(DUPLICATE_PLUGIN, Place::File(source.name().to_owned()), message);
                 self.out.push(problem.relate(Place::File(first.source.name().to_owned()), "the first one"));

@@ -17,14 +17,15 @@ pub struct SearchPath {
     pub required: bool,
 }
 
-/// The plugin folders under the search paths, in order of path, then of name.
+/// The plugin folders under the search paths, in order of path, then of name. All of them: which of two plugins of one
+/// name wins is [`crate::Registry::new`]'s to say, since names stand in manifests.
 ///
 /// # Errors
 /// Folders that cannot be read, and required paths without a plugin.
 pub fn find_folders(paths: &[SearchPath]) -> Result<Vec<Folder>, Vec<Diagnostic>> {
     let (mut found, mut problems) = (Vec::new(), Vec::new());
     let mut seen = Vec::new();
-    for search in paths {
+    for (index, search) in paths.iter().enumerate() {
         let folders = plugin_folders(&search.path);
         if folders.is_empty() && search.required {
             let place = Place::File(search.path.display().to_string());
@@ -38,7 +39,7 @@ pub fn find_folders(paths: &[SearchPath]) -> Result<Vec<Folder>, Vec<Diagnostic>
             }
             seen.push(identity);
             match Folder::read(&folder) {
-                Ok(folder) => found.push(folder),
+                Ok(folder) => found.push(Folder { path: index, ..folder }),
                 Err(problem) => problems.push(problem),
             }
         }
@@ -56,7 +57,8 @@ fn plugin_folders(path: &Path) -> Vec<PathBuf> {
     folders
 }
 
-/// The shared modules: those compiled in, and over them those of a `shaders` folder beside each search path.
+/// The shared modules: those compiled in, and over them those of a `shaders` folder beside each search path; as with
+/// plugins, an earlier path wins.
 ///
 /// # Errors
 /// Files that cannot be read.
@@ -66,7 +68,7 @@ pub fn shader_modules(built_in: &[(&str, &str)], paths: &[SearchPath]) -> Result
         library.insert(name, Source::new(format!("shaders/{name}.wgsl"), (*text).to_owned()));
     }
     let mut problems = Vec::new();
-    for search in paths {
+    for search in paths.iter().rev() {
         let Some(folder) = search.path.parent().map(|parent| parent.join("shaders")) else { continue };
         let entries = std::fs::read_dir(&folder).into_iter().flatten().flatten().map(|entry| entry.path());
         let mut files: Vec<PathBuf> = entries.filter(|file| file.extension().is_some_and(|e| e == "wgsl")).collect();

@@ -186,7 +186,7 @@ fn what_is_kept_is_what_would_run() {
     let registry = with_plugin("mix", &[("plugin.ron", PLUGIN), ("change.wgsl", CHANGE), ("follow.wgsl", FOLLOW)]);
     let (mut ran, mut kept_runs) = (0, 0);
     for seed in 1..=12_u64 {
-        let random = &mut Random(seed * 0x9E37_79B9_7F4A_7C15);
+        let random = &mut Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15));
         let (text, params) = random_graph(random, 16);
         let live = (0..2).map(|_| &params[random.below(params.len())]).map(|(pass, param)| format!("{pass}.{param}"));
         let keep = Keep::Edges { live: live.collect(), animated: BTreeSet::new() };
@@ -208,7 +208,7 @@ fn what_is_kept_is_what_would_run() {
                 assert_eq!(done[0], done[1]);
             }
             if random.below(10) == 0 {
-                kept.poison(f32::NAN);
+                kept.poison(f32::NAN).unwrap();
             }
             ran += kept.frame(FrameOptions::default()).unwrap().passes_run;
             kept_runs += fresh.plan().passes.len();

@@ -143,7 +143,10 @@ impl Varied {
             let pass = graph.pass(found.pass);
             let param = &pass.descriptor().params[found.param as usize];
             if let Some(reason) = why_not(param, from, to) {
-                return Err(Failure::Usage(format!("--vary {text}: `{}` of pass `{}` {reason}", param.name, pass.name)));
+                return Err(Failure::Usage(format!(
+                    "--vary {text}: `{}` of pass `{}` {reason}",
+                    param.name, pass.name
+                )));
             }
             targets.push((pass.name.clone(), param.name.clone()));
         }
@@ -176,9 +179,7 @@ fn why_not(param: &ParamDescriptor, from: f64, to: f64) -> Option<String> {
 
 impl Figures {
     fn json(&self) -> Value {
-        let pass = |pass: &PassFigures| {
-            json!({ "name": pass.name, "runs": pass.runs, "cpu_us": pass.cpu_us, "gpu_us": pass.gpu_us })
-        };
+        let pass = |pass: &PassFigures| json!({ "name": pass.name, "runs": pass.runs, "cpu_us": pass.cpu_us, "gpu_us": pass.gpu_us });
         json!({
             "adapter": self.adapter,
             "size": [self.size.0, self.size.1],
@@ -201,7 +202,8 @@ impl Figures {
             let (name, runs) = (&pass.name, pass.runs);
             text += &format!("{name:width$}  {runs:>6}  {:>12}  {:>12}\n", time(Some(pass.cpu_us)), time(pass.gpu_us));
         }
-        text += &format!("{:width$}  {:>6}  {:>12}  {:>12}\n\n", "frame", "", time(Some(self.cpu_us)), time(self.gpu_us));
+        text +=
+            &format!("{:width$}  {:>6}  {:>12}  {:>12}\n\n", "frame", "", time(Some(self.cpu_us)), time(self.gpu_us));
         text += &format!(
             "load {:.1} us, validate {:.1} us, plan {:.1} us; first image after {:.1} ms\n",
             self.load_us, self.validate_us, self.plan_us, self.first_image_ms

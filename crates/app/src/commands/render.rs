@@ -175,7 +175,8 @@ impl Clock {
     }
 
     fn summary(&self) -> String {
-        let laps: Vec<String> = self.laps.iter().map(|(name, took)| format!("{name} {}", milliseconds(*took))).collect();
+        let laps: Vec<String> =
+            self.laps.iter().map(|(name, took)| format!("{name} {}", milliseconds(*took))).collect();
         format!("{} in all: {}", milliseconds(self.started.elapsed()), laps.join(", "))
     }
 }

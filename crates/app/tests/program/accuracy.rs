@@ -16,17 +16,8 @@ const MAX: f64 = 6e-3;
 /// Errors of single pixels go both ways, so that a sum must be better than they are.
 const SUM: f64 = 5e-4;
 
-const AIRLIGHT: [&str; 9] = [
-    "glow_g0.5",
-    "glow_g0.9",
-    "glow_rayleigh",
-    "lamp_behind",
-    "spot",
-    "ground_sphere",
-    "box",
-    "sphere",
-    "box_sphere",
-];
+const AIRLIGHT: [&str; 9] =
+    ["glow_g0.5", "glow_g0.9", "glow_rayleigh", "lamp_behind", "spot", "ground_sphere", "box", "sphere", "box_sphere"];
 const SURFACES: [&str; 6] = ["spot", "ground_sphere", "ground_phong", "box", "sphere", "box_sphere"];
 
 fn reference(name: &str) -> PathBuf {
@@ -55,7 +46,8 @@ impl Samples {
                 _ => f64::INFINITY,
             }
         };
-        let mut errors: Vec<f64> = self.0.iter().flat_map(|sample| [0, 1, 2].map(|channel| error(sample, channel))).collect();
+        let mut errors: Vec<f64> =
+            self.0.iter().flat_map(|sample| [0, 1, 2].map(|channel| error(sample, channel))).collect();
         percentiles(&mut errors).unwrap()
     }
 }

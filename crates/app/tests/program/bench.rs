@@ -42,3 +42,51 @@ fn with_keep_only_what_changes_runs_again() {
         assert_eq!(runs, if name == "display" { 10 } else { 1 }, "{name}");
     }
 }
+
+/// Programs read the file, so its keys are exactly these.
+#[test]
+fn the_file_has_no_other_key() {
+    let desk = Desk::new();
+    let figures = bench(&desk, &["--frames", "1"]);
+    let keys = |value: &Value| value.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+    let wanted = [
+        "adapter",
+        "first_image_ms",
+        "frame",
+        "load_us",
+        "passes",
+        "plan_us",
+        "size",
+        "transient_bytes",
+        "validate_us",
+    ];
+    assert_eq!(keys(&figures), wanted);
+    assert_eq!(keys(&figures["frame"]), ["cpu_us", "gpu_us"]);
+    assert_eq!(keys(&figures["transient_bytes"]), ["shared", "unshared"]);
+    for pass in figures["passes"].as_array().unwrap() {
+        assert_eq!(keys(pass), ["cpu_us", "gpu_us", "name", "runs"]);
+        assert!(pass["name"].is_string() && pass["runs"].is_u64() && pass["cpu_us"].is_number());
+        assert!(pass["gpu_us"].is_number() || pass["gpu_us"].is_null());
+    }
+}
+
+#[test]
+fn what_cannot_vary_is_refused() {
+    let desk = Desk::new();
+    for vary in [
+        "exposure",
+        "exposure=1",
+        "exposure=a..b",
+        "exposure=-1..2",
+        "exposure=0..NaN",
+        "exposure=0..inf",
+        "air.nodes=4..8",
+        "direct=0..1",
+        "exposur=1..2",
+        "=1..2",
+        "",
+    ] {
+        let ended = desk.ends(2, &["bench", "fog.graph.ron", "--size", "8x8", "--frames", "2", "--vary", vary]);
+        assert!(ended.err.contains(&format!("--vary {vary}")), "{vary}: {}", ended.err);
+    }
+}

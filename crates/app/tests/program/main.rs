@@ -3,13 +3,18 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod accuracy;
+mod assets;
 mod bench;
 mod check;
 mod contributing;
 mod exit_codes;
+mod fuzz;
+mod outputs;
 mod physics;
 mod pictures;
+mod plugins;
 mod render;
 mod run;
+mod settings;
 mod show;
 mod tables;

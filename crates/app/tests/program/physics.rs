@@ -12,7 +12,8 @@ const SPOT: &str = "Spot(position: (-1.0, 3.0, 1.0), direction: (0.2, -1.0, -0.1
 const SUN: &str = "Directional(direction: (0.3, -1.0, 0.2), irradiance: (0.5, 0.5, 0.6))";
 const FLOOR: &str = "(mesh: Plane(size: (20.0, 20.0))), (mesh: Sphere(radius: 1.0), translation: (0.0, 1.0, 0.0), material: (specular: (0.2, 0.2, 0.2), shininess: 12.0))";
 const CAMERA: &str = "camera: (position: (0.0, 1.5, 6.0), look_at: (0.0, 1.0, 0.0), vertical_fov: 50.0)";
-const MEDIUM: &str = "medium: (extinction: (0.05, 0.06, 0.08), albedo: (0.9, 0.8, 0.7), phase: HenyeyGreenstein(g: 0.7))";
+const MEDIUM: &str =
+    "medium: (extinction: (0.05, 0.06, 0.08), albedo: (0.9, 0.8, 0.7), phase: HenyeyGreenstein(g: 0.7))";
 const BACKGROUND: &str = "background: (0.01, 0.02, 0.03)";
 
 fn scene(lights: &str, objects: &str) -> String {
@@ -44,14 +45,23 @@ impl Terms {
 fn draw(desk: &Desk, scene: &str, settings: &[&str]) -> Terms {
     desk.put("physics.scene.ron", scene);
     let fog = shipped("fog");
-    let mut arguments =
-        vec!["render", fog.to_str().unwrap(), "--scene", "physics.scene.ron", "--size", SIZE, "--set", "scattered=false"];
+    let mut arguments = vec![
+        "render",
+        fog.to_str().unwrap(),
+        "--scene",
+        "physics.scene.ron",
+        "--size",
+        SIZE,
+        "--set",
+        "scattered=false",
+    ];
     for output in ["radiance=r.npy", "airlight=a.npy", "surface=s.npy", "surfaces.depth=d.npy"] {
         arguments.extend(["--output", output]);
     }
     settings.iter().for_each(|setting| arguments.extend(["--set", setting]));
     desk.ends(0, &arguments);
-    let [radiance, airlight, surface, depth] = ["r.npy", "a.npy", "s.npy", "d.npy"].map(|name| read(&desk.path(name)).unwrap());
+    let [radiance, airlight, surface, depth] =
+        ["r.npy", "a.npy", "s.npy", "d.npy"].map(|name| read(&desk.path(name)).unwrap());
     Terms { radiance, airlight, surface, depth }
 }
 
@@ -121,7 +131,9 @@ fn without_extinction_there_is_no_airlight_and_nothing_hides_the_background() {
 fn one_channel_without_extinction_is_clear_by_itself() {
     let desk = Desk::new();
     let terms = draw(&desk, &scene(LAMP, ""), &["scene.medium.extinction=(0.1, 0, 0.1)"]);
-    for (radiance, airlight) in terms.radiance.data.as_chunks::<3>().0.iter().zip(terms.airlight.data.as_chunks::<3>().0) {
+    for (radiance, airlight) in
+        terms.radiance.data.as_chunks::<3>().0.iter().zip(terms.airlight.data.as_chunks::<3>().0)
+    {
         assert_eq!((airlight[1], radiance[1]), (0.0, 0.02));
         assert!(airlight[0] > 0.0 && radiance[0] == airlight[0]);
     }
@@ -183,7 +195,12 @@ fn the_sun_in_an_endless_medium_gives_albedo_times_phase_times_irradiance() {
     // Into the sun and away from it, g = 0.7: p = (1 - g²) / (4π (1 ∓ g)³), at a pixel in the middle.
     for (direction, cosine) in [("(0, 0, 1)", 1.0), ("(0, 0, -1)", -1.0)] {
         let set = format!("scene.lights.0.direction={direction}");
-        let size = ["scene.camera.look_at=(0, 1.5, 0)", "scene.medium.albedo=(1, 1, 1)", "scene.camera.vertical_fov=0.01", &set];
+        let size = [
+            "scene.camera.look_at=(0, 1.5, 0)",
+            "scene.medium.albedo=(1, 1, 1)",
+            "scene.camera.vertical_fov=0.01",
+            &set,
+        ];
         let found = f64::from(draw(&desk, &scene(SUN, ""), &size).airlight.pixel(12, 9).unwrap()[0]);
         let g: f64 = 0.7;
         let phase = (1.0 - g * g) / (4.0 * std::f64::consts::PI * (1.0 + g * g - 2.0 * g * cosine).powf(1.5));
@@ -195,7 +212,8 @@ fn the_sun_in_an_endless_medium_gives_albedo_times_phase_times_irradiance() {
 #[test]
 fn a_spot_lights_its_cone_and_nothing_else() {
     let desk = Desk::new();
-    let spot = "Spot(position: (0.0, 6.0, 0.0), direction: (0.0, -1.0, 0.0), intensity: (30.0, 30.0, 30.0), cutoff: 20.0)";
+    let spot =
+        "Spot(position: (0.0, 6.0, 0.0), direction: (0.0, -1.0, 0.0), intensity: (30.0, 30.0, 30.0), cutoff: 20.0)";
     let point = "Point(position: (0.0, 6.0, 0.0), intensity: (30.0, 30.0, 30.0))";
     let floor = "(mesh: Plane(size: (40.0, 40.0)))";
     let [spot, point] = [spot, point].map(|light| draw(&desk, &scene(light, floor), &[]));
@@ -252,9 +270,18 @@ fn lights_at_odd_places_give_sound_pictures() {
         draw(&desk, &text, &[&format!("scene.lights.0.position={place}")]).assert_sound(what);
     }
     for (what, light) in [
-        ("a spot in the camera", "Spot(position: (0.0, 1.5, 6.0), direction: (0.0, -0.5, -6.0), intensity: (9, 9, 9), cutoff: 30)"),
-        ("a spot of half a sphere", "Spot(position: (0, 3, 0), direction: (0, -1, 0), intensity: (9, 9, 9), cutoff: 90)"),
-        ("a spot of no width", "Spot(position: (0, 3, 0), direction: (0, -1, 0), intensity: (9, 9, 9), cutoff: 0.001, exponent: 1000)"),
+        (
+            "a spot in the camera",
+            "Spot(position: (0.0, 1.5, 6.0), direction: (0.0, -0.5, -6.0), intensity: (9, 9, 9), cutoff: 30)",
+        ),
+        (
+            "a spot of half a sphere",
+            "Spot(position: (0, 3, 0), direction: (0, -1, 0), intensity: (9, 9, 9), cutoff: 90)",
+        ),
+        (
+            "a spot of no width",
+            "Spot(position: (0, 3, 0), direction: (0, -1, 0), intensity: (9, 9, 9), cutoff: 0.001, exponent: 1000)",
+        ),
         ("a lamp with a radius", "Point(position: (0.0, 1.25, 3.0), intensity: (9, 9, 9), radius: 0.5)"),
         ("a sun along the view", "Directional(direction: (0.0, -0.5, -6.0), irradiance: (1, 1, 1))"),
         ("a sun against the view", "Directional(direction: (0.0, 0.5, 6.0), irradiance: (1, 1, 1))"),

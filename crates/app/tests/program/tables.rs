@@ -36,8 +36,13 @@ fn an_unknown_pass_is_refused_with_a_near_name() {
 fn new_files_render_as_they_are() {
     let desk = Desk::new();
     desk.ends(0, &["new", "graph", "mine"]);
-    desk.ends(0, &["new", "scene", "mine"]);
-    desk.ends(0, &["render", "mine.graph.ron", "--scene", "mine.scene.ron", "--size", "16x12"]);
+    desk.ends(0, &["check", "mine.graph.ron"]);
+    desk.ends(0, &["render", "mine.graph.ron", "--size", "16x12"]);
     assert!(!desk.files("out").is_empty());
     desk.ends(2, &["new", "graph", "mine"]);
+    desk.ends(0, &["new", "scene", "other"]);
+    desk.ends(0, &["render", "mine.graph.ron", "--scene", "other.scene.ron", "--size", "16x12"]);
+    let written = std::fs::read_to_string(desk.path("other.scene.ron")).unwrap();
+    desk.ends(2, &["new", "scene", "other"]);
+    assert_eq!(std::fs::read_to_string(desk.path("other.scene.ron")).unwrap(), written);
 }

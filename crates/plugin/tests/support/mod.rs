@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use tempfile::TempDir;
-use tyndall_document::{Diagnostics, Source, render_text};
+use tyndall_document::{Diagnostic, Diagnostics, Source, render_text};
 use tyndall_gpu::{Executor, FrameOptions, Gpu, PipelineCache, PortData, SceneBuffers};
 use tyndall_graph::{Graph, Overrides, Plan, PlanOptions, plan, read, validate};
 use tyndall_plugin::{Plugin, Registry, SearchPath, find_folders, shader_modules};
@@ -21,9 +21,15 @@ pub fn shipped() -> Vec<Plugin> {
 pub fn try_registry(paths: &[&Path]) -> Result<Registry, Diagnostics> {
     let paths: Vec<SearchPath> =
         paths.iter().map(|path| SearchPath { path: path.to_path_buf(), required: true }).collect();
-    let folders = find_folders(&paths)?;
-    let shared = shader_modules(tyndall_shaders::MODULES, &[])?;
+    let folders = find_folders(&paths).map_err(collected)?;
+    let shared = shader_modules(tyndall_shaders::MODULES, &[]).map_err(collected)?;
     Registry::new(shipped(), folders, &shared, SCENE_DATA)
+}
+
+fn collected(mistakes: Vec<Diagnostic>) -> Diagnostics {
+    let mut out = Diagnostics::default();
+    out.extend(mistakes);
+    out
 }
 
 pub fn registry(paths: &[&Path]) -> Registry {

@@ -5,6 +5,7 @@
 //! segments before, across and after the foot, optical depth of the lamp's distance to 15 (and to 60 apart).
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::print_stdout, reason = "the measured errors, which the README quotes")]
 
 mod cases;
 mod probe;

@@ -1,0 +1,158 @@
+//! Plugins that are folders with a manifest and WGSL, found at run time and from anywhere.
+
+use std::path::Path;
+
+use tyndall_image::read;
+
+use crate::run::{Desk, Ended};
+
+const MANIFEST: &str = r#"(
+    name: "tint",
+    version: "0.1.0",
+    about: "Tints.",
+    passes: {
+        "invert": (
+            about: "What is missing to a level.",
+            shader: "invert.wgsl",
+            ports: {
+                "radiance": (about: "A picture"),
+                "inverted": (about: "level - picture", size: Same("radiance"), disabled: Input("radiance")),
+            },
+            params: { "level": (about: "What is subtracted from", default: 1.0, range: (0.0, 10.0)) },
+        ),
+    },
+)"#;
+
+const SHADER: &str = "
+struct Params { level: f32 }
+var<uniform> params: Params;
+var radiance: texture_2d<f32>;
+var inverted: texture_storage_2d<rgba32float, write>;
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    if any(id.xy >= textureDimensions(inverted)) {
+        return;
+    }
+    let color = textureLoad(radiance, id.xy, 0).rgb;
+    textureStore(inverted, id.xy, vec4(params.level - color, 1.0));
+}
+";
+
+const GRAPH: &str = r#"(
+    version: 1,
+    passes: {
+        "grey": (use: "core.constant", params: { "value": (0.25, 0.5, 1.0) }),
+        "tinted": (use: "tint.invert", inputs: { "radiance": "grey.color" }, params: { "level": 2.0 }),
+    },
+    outputs: { "radiance": "tinted.inverted" },
+)"#;
+
+/// A desk with the graph in `here`, and the plugin in `folder`.
+fn desk(folder: &str, shader: &str) -> Desk {
+    let desk = Desk::new();
+    desk.put("here/tint.graph.ron", GRAPH);
+    desk.put(&format!("{folder}/tint/plugin.ron"), MANIFEST);
+    desk.put(&format!("{folder}/tint/invert.wgsl"), shader);
+    desk
+}
+
+/// Runs the program in a folder of the desk.
+fn run_in(desk: &Desk, folder: &str, arguments: &[&str], variable: Option<&Path>) -> Ended {
+    let mut command = desk.command(arguments);
+    command.current_dir(desk.path(folder));
+    if let Some(value) = variable {
+        command.env("TYNDALL_PLUGIN_PATH", value);
+    }
+    Ended::of(arguments, &command.output().unwrap())
+}
+
+#[track_caller]
+fn draws(desk: &Desk, folder: &str, more: &[&str], variable: Option<&Path>) {
+    let (graph, file) = (desk.path("here/tint.graph.ron"), desk.path("tint.npy"));
+    let output = format!("radiance={}", file.display());
+    let mut arguments = vec!["render", graph.to_str().unwrap(), "--size", "9x7", "--output", &output];
+    arguments.extend(more);
+    let ended = run_in(desk, folder, &arguments, variable);
+    assert_eq!(ended.code, 0, "{}", ended.err);
+    let image = read(&file).unwrap().first_channels(3);
+    assert!(image.data.as_chunks::<3>().0.iter().all(|pixel| *pixel == [1.75, 1.5, 1.0]));
+}
+
+#[test]
+fn a_plugin_is_found_wherever_it_may_be() {
+    let beside = desk("here/plugins", SHADER);
+    std::fs::create_dir(beside.path("elsewhere")).unwrap();
+    draws(&beside, "elsewhere", &[], None);
+
+    let in_the_working_directory = desk("elsewhere/plugins", SHADER);
+    draws(&in_the_working_directory, "elsewhere", &[], None);
+    let refused = run_in(&in_the_working_directory, "here", &["check", "tint.graph.ron"], None);
+    assert!(refused.code == 2 && refused.err.contains("tint.invert"), "{}", refused.err);
+
+    let far = desk("far", SHADER);
+    draws(&far, "here", &["--plugin-path", "../far"], None);
+    draws(&far, "here", &["--plugin-path", "../far/tint"], None);
+    draws(&far, "here", &[], Some(&far.path("far")));
+    draws(&far, "here", &[], Some(&far.path("far/tint")));
+    let listed = run_in(&far, "here", &["--plugin-path", "../far", "passes", "tint.invert"], None);
+    assert!(listed.code == 0 && listed.out.contains("What is missing"), "{}", listed.out);
+}
+
+#[test]
+fn shipped_graphs_render_from_anywhere() {
+    let desk = Desk::new();
+    std::fs::create_dir(desk.path("empty")).unwrap();
+    let graph = crate::run::shipped("fog");
+    let arguments = ["render", graph.to_str().unwrap(), "--size", "16x9"];
+    let ended = run_in(&desk, "empty", &arguments, None);
+    assert_eq!(ended.code, 0, "{}", ended.err);
+    assert_eq!(desk.files("empty/out").len(), 4);
+}
+
+#[test]
+fn a_plugin_path_that_holds_none_is_a_mistake() {
+    let desk = Desk::new();
+    for verb in [&["passes"][..], &["check", "fog.graph.ron"], &["render", "fog.graph.ron"]] {
+        let arguments: Vec<&str> = verb.iter().chain(&["--plugin-path", "nowhere"]).copied().collect();
+        assert!(desk.ends(2, &arguments).err.contains("nowhere"));
+    }
+    let ended = run_in(&desk, "", &["passes"], Some(Path::new("no-such-folder")));
+    assert!(ended.code == 2 && ended.err.contains("no-such-folder"), "{}", ended.err);
+}
+
+#[test]
+fn a_mistake_in_a_shader_points_into_it() {
+    for (from, to, line) in [
+        ("params.level - color", "params.level - colour", "invert.wgsl:13:"),
+        ("id.xy >= textureDimensions(inverted)", "id.xy >= 1.5", "invert.wgsl:9:"),
+        ("var radiance:", "var radiation:", "invert.wgsl"),
+        // Whichever end is wrong, the default is not of the type.
+        ("level: f32", "level: vec3<f32>", "plugin.ron:13:"),
+        ("texture_storage_2d<rgba32float, write>", "texture_storage_2d<rgba32float, read>", "invert.wgsl"),
+    ] {
+        assert!(SHADER.contains(from));
+        let desk = desk("here/plugins", &SHADER.replace(from, to));
+        for verb in ["check", "render"] {
+            let ended = desk.ends(2, &[verb, "here/tint.graph.ron"]);
+            assert!(ended.err.contains(line), "{to}: {}", ended.err);
+        }
+    }
+}
+
+#[test]
+fn broken_manifests_are_mistakes() {
+    for manifest in [
+        "",
+        "(",
+        "(name: 1)",
+        "(name: \"tint\")",
+        &MANIFEST.replace("invert.wgsl", "missing.wgsl"),
+        &MANIFEST.replace("\"tint\"", "\"core\""),
+    ] {
+        let desk = desk("here/plugins", SHADER);
+        desk.put("here/plugins/tint/plugin.ron", manifest);
+        let ended = desk.ends(2, &["check", "here/tint.graph.ron"]);
+        assert!(ended.err.contains("plugin.ron"), "{manifest}: {}", ended.err);
+    }
+}

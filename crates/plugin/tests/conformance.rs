@@ -1,0 +1,139 @@
+//! What holds of every pass that ships.
+
+mod support;
+
+use std::path::Path;
+
+use support::{LIGHTS, content, executor, gpu, planned, registry, run_all, scene, set_scene};
+use tempfile::TempDir;
+use tyndall_graph::Roots;
+use tyndall_graph::descriptor::{ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, Role};
+
+#[test]
+fn every_pass_says_what_it_is() {
+    let registry = registry(&[]);
+    assert!(registry.passes().count() >= 10);
+    for pass in registry.passes() {
+        let descriptor = &pass.descriptor;
+        let name = &descriptor.name;
+        assert!(is_sentence(&descriptor.about), "{name}: {:?}", descriptor.about);
+        assert!(is_sentence(&pass.plugin_about), "{name}: {:?}", pass.plugin_about);
+        assert!(descriptor.scene.is_sorted(), "{name}: scene data are sorted");
+        assert!(descriptor.outputs().next().is_some() || descriptor.side_effect, "{name} does nothing");
+        for port in &descriptor.ports {
+            assert!(!port.about.is_empty(), "{name}.{} is not documented", port.name);
+            assert!(is_name(&port.name), "{name}.{}", port.name);
+        }
+        for param in &descriptor.params {
+            assert!(!param.about.is_empty(), "{name}.{} is not documented", param.name);
+            assert!(is_name(&param.name), "{name}.{}", param.name);
+            assert!(is_in_range(param), "{name}.{}: its default is out of its range", param.name);
+        }
+    }
+}
+
+/// Two ports of one name and meaning have one unit, or any picture would do.
+#[test]
+fn the_same_quantity_has_the_same_unit() {
+    let registry = registry(&[]);
+    let ports = || registry.passes().flat_map(|pass| &pass.descriptor.ports);
+    for (name, unit) in [("depth", "m"), ("airlight", "W/(sr m^2)"), ("radiance", "W/(sr m^2)")] {
+        assert!(ports().any(|port| port.name == name), "no port `{name}` any more");
+        assert!(ports().all(|port| port.name != name || port.unit == unit), "a port `{name}` is not in {unit}");
+    }
+}
+
+#[test]
+fn every_pass_renders_over_garbage_without_nan() {
+    let (gpu, registry, scene) = (gpu(), registry(&[]), scene(LIGHTS));
+    let folder = TempDir::new().unwrap();
+    let picture = folder.path().join("picture.npy");
+    std::fs::write(&picture, npy()).unwrap();
+    for pass in registry.passes() {
+        let text = graph(&pass.descriptor, &picture);
+        let plan = planned(&registry, &text, |_, options| options.roots = Roots::All);
+        let mut executor = executor(&gpu, &registry, plan);
+        set_scene(&mut executor, &scene, 0.0);
+        executor.poison(f32::NAN).unwrap();
+        run_all(&mut executor);
+        for port in pass.descriptor.outputs() {
+            let name = format!("tested.{}", port.name);
+            let data = content(&executor, &name).data;
+            assert!(!data.is_empty() && data.iter().all(|number| !number.is_nan()), "{} in {text}", port.name);
+        }
+    }
+}
+
+/// The test of the test: what nobody writes stays NaN.
+#[test]
+fn garbage_is_seen() {
+    let registry = support::with_plugin("t", &[
+        ("plugin.ron", r#"(name: "t", version: "0.1.0", about: "For tests.", passes: {
+            "p": (about: "Half a picture.", shader: "p.wgsl", ports: { "color": (about: "Half", size: Frame(1.0)) }) })"#),
+        ("p.wgsl", "var color: texture_storage_2d<rgba32float, write>;
+            @compute @workgroup_size(8, 8) fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+                if id.x < 2 { textureStore(color, id.xy, vec4(1.0)); }
+            }"),
+    ]);
+    let text = r#"(version: 1, size: (4, 3), passes: { "p": (use: "t.p") }, outputs: { "color": "p.color" })"#;
+    let mut executor = executor(&gpu(), &registry, planned(&registry, text, |_, _| ()));
+    executor.poison(f32::NAN).unwrap();
+    run_all(&mut executor);
+    assert_eq!(content(&executor, "color").data.iter().filter(|number| number.is_nan()).count(), 2 * 3 * 4);
+}
+
+fn is_sentence(text: &str) -> bool {
+    text.ends_with('.') && text.starts_with(|c: char| c.is_uppercase())
+}
+
+fn is_name(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_lowercase())
+        && text.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
+}
+
+fn is_in_range(param: &ParamDescriptor) -> bool {
+    let within = |number: f64| param.range.is_none_or(|(low, high)| (low..=high).contains(&number));
+    match &param.default {
+        ParamValue::Integer(number) => within(*number as f64),
+        ParamValue::Float(number) => within(*number),
+        ParamValue::Vector(numbers) => numbers.iter().all(|number| within(*number)),
+        ParamValue::Choice(word) => param.choices.contains(word),
+        ParamValue::Bool(_) | ParamValue::File(_) => true,
+    }
+}
+
+/// The pass as `tested`, all its inputs fed: from a geometry buffer's port of the same name, or else with a colour.
+fn graph(descriptor: &PassDescriptor, picture: &Path) -> String {
+    let inputs: Vec<String> = descriptor.inputs().map(|port| format!("\"{}\": \"{}\"", port.name, source(port))).collect();
+    let file = descriptor.params.iter().find(|param| matches!(param.default, ParamValue::File(_)));
+    let params = file.map(|param| format!("\"{}\": {:?}", param.name, picture.display().to_string()));
+    format!(
+        "(version: 1, size: (4, 3), passes: {{
+            \"surfaces\": (use: \"core.gbuffer\"),
+            \"colour\": (use: \"core.constant\", params: {{ \"value\": (0.1, 2.0, 30.0) }}),
+            \"tested\": (use: \"{}\", inputs: {{ {} }}, params: {{ {} }}),
+        }}, outputs: {{ \"one\": \"tested.{}\" }})",
+        descriptor.name,
+        inputs.join(", "),
+        params.unwrap_or_default(),
+        descriptor.outputs().next().unwrap().name,
+    )
+}
+
+fn source(port: &PortDescriptor) -> String {
+    assert!(!matches!(port.role, Role::History(_)), "feed the history of {}", port.name);
+    match port.name.as_str() {
+        "depth" | "normal" | "material" | "triangle" => format!("surfaces.{}", port.name),
+        _ => "colour.color".to_owned(),
+    }
+}
+
+/// A picture of 4 by 3 texels with three channels, all 0.5.
+fn npy() -> Vec<u8> {
+    let header = format!("{:<117}\n", "{'descr': '<f4', 'fortran_order': False, 'shape': (3, 4, 3), }");
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((header.len() as u16).to_le_bytes());
+    bytes.extend(header.as_bytes());
+    bytes.extend(0.5_f32.to_le_bytes().repeat(36));
+    bytes
+}

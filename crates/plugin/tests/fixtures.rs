@@ -1,0 +1,51 @@
+//! Every code has a fixture that pins its text and position: a manifest, beside the shader below.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use tyndall_document::{Diagnostics, Source, fixture};
+use tyndall_plugin::{CODES, Folder, Registry, SearchPath, find_folders};
+use tyndall_shader::Library;
+
+const SHADER: &str = "struct Params {
+    factor: f32,
+    curve: u32,
+}
+var<uniform> params: Params;
+var input: texture_2d<f32>;
+var scaled: texture_storage_2d<rgba32float, write>;
+@compute @workgroup_size(8, 8) fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    textureStore(scaled, id.xy, params.factor * f32(params.curve) * textureLoad(input, id.xy, 0));
+}";
+
+/// A first line `// twice` gives the manifest to two plugins, `// --plugin-path PATH` looks there instead.
+fn run(source: &Arc<Source>) -> Diagnostics {
+    let mut out = Diagnostics::default();
+    let text = source.text();
+    let first = text.lines().next().unwrap_or_default();
+    if let Some(path) = first.strip_prefix("// --plugin-path ") {
+        out.extend(find_folders(&[SearchPath { path: PathBuf::from(path), required: true }]).err().unwrap_or_default());
+        return out;
+    }
+    let folder = |name: &str| Folder::embedded(name, &[("plugin.ron", text), ("pass.wgsl", SHADER)]);
+    let mut folders = vec![folder("test")];
+    if first == "// twice" {
+        folders.push(folder("again"));
+    }
+    if let Err(mistakes) = Registry::new(Vec::new(), folders, &Library::default(), &[]) {
+        out.extend(mistakes);
+    }
+    out
+}
+
+#[test]
+fn every_code_has_its_text() {
+    fixture::check(Path::new("tests/fixtures"), CODES, &run);
+}
+
+/// The manifest that the fixtures are mistakes of has none.
+#[test]
+fn the_right_manifest_is_accepted() {
+    let text = include_str!("fixtures/right/plugin.ron");
+    assert!(run(&Source::new("plugin.ron", text)).is_empty());
+}
