@@ -54,7 +54,8 @@ impl Method {
 fn main() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("one.scene.ron"), SCENE).unwrap();
-    let quadrature = [4, 8, 12].map(|n| Method::new(format!("quadrature, {n} nodes"), "airlight.homogeneous", "nodes", n));
+    let quadrature =
+        [4, 8, 12].map(|n| Method::new(format!("quadrature, {n} nodes"), "airlight.homogeneous", "nodes", n));
     let march = [16, 64, 256, 1024].map(|n| Method::new(format!("march, {n} steps"), "march.airlight", "steps", n));
     let mut methods: Vec<Method> = quadrature.into_iter().chain(march).collect();
     let truth = truth();

@@ -41,6 +41,18 @@ pub(crate) enum Verb {
     },
 }
 
+impl Verb {
+    /// The adapter that the command line asks for.
+    pub fn adapter(&self) -> Option<&str> {
+        match self {
+            Verb::Render(verb) => verb.adapter.as_deref(),
+            Verb::Bench(verb) => verb.adapter.as_deref(),
+            Verb::Probe(verb) => verb.adapter.as_deref(),
+            _ => None,
+        }
+    }
+}
+
 /// What every verb that reads a graph takes.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct GraphArguments {

@@ -16,6 +16,9 @@ use std::time::Instant;
 
 use tyndall_plugin::Plugin;
 
+use crate::cli::Arguments;
+use crate::failure::Failure;
+
 /// The program, and the plugins that are compiled into it.
 pub struct App {
     plugins: Vec<fn() -> Plugin>,
@@ -52,10 +55,19 @@ impl App {
             Ok(()) => ExitCode::SUCCESS,
             Err(failure) => {
                 failure.print();
-                ExitCode::from(failure.exit_code())
+                ExitCode::from(failure.exit_code().max(exit_code_of_adapter(&arguments, &failure)))
             }
         }
     }
+}
+
+/// With several causes the highest code counts, and whatever else is wrong, an adapter that is not there is the machine's.
+fn exit_code_of_adapter(arguments: &Arguments, failure: &Failure) -> u8 {
+    let Some(name) = arguments.verb.adapter().filter(|_| failure.exit_code() == 2) else { return 0 };
+    let Err(error) = tyndall_gpu::Gpu::open(Some(name)) else { return 0 };
+    let failure = Failure::from(error);
+    failure.print();
+    failure.exit_code()
 }
 
 impl Default for App {

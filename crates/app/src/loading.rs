@@ -45,7 +45,7 @@ pub(crate) fn load(arguments: &GraphArguments, registry: &Registry) -> Result<Lo
     if !out.is_empty() {
         terminal::error(&render_text(&out, terminal::color()));
     }
-    loaded.ok_or_else(|| Failure::Mistakes(out))
+    loaded.ok_or(Failure::Mistakes(out))
 }
 
 /// The same; every mistake and every warning goes to `out`.

@@ -14,13 +14,14 @@ pub(crate) fn write_port(executor: &Executor, port: u32, path: &Path) -> Result<
     let meaning = meaning(executor.plan().ports[port as usize].class);
     if supported(path)? == FileKind::Npy {
         let shape = shape(&data);
-        return Ok(match meaning {
+        match meaning {
             Meaning::Color | Meaning::Vector if data.is_image => {
                 let image = image(data).first_channels(3);
-                tyndall_image::write_array(path, &[shape[0], shape[1], 3], &image.data)?
+                tyndall_image::write_array(path, &[shape[0], shape[1], 3], &image.data)?;
             }
             _ => tyndall_image::write_array(path, &shape, &data.data)?,
-        });
+        }
+        return Ok(());
     }
     if data.is_image {
         return Ok(tyndall_image::write(path, &image(data), meaning)?);

@@ -8,7 +8,8 @@ mod support;
 use std::sync::Arc;
 use std::time::Instant;
 
-use support::{ByHand, chain, executor, gpu, planned};
+use support::by_hand::ByHand;
+use support::{chain, executor, gpu, planned};
 use tyndall_gpu::{FrameOptions, Gpu, wgpu};
 
 const PASSES: usize = 50;

@@ -148,7 +148,12 @@ impl Gpu {
     }
 
     /// Runs `make`, which creates `objects` GPU objects, and turns what wgpu reports into an error that names `what`.
-    pub(crate) fn create<T>(&self, what: &str, objects: u64, make: impl FnOnce(&wgpu::Device) -> T) -> Result<T, GpuError> {
+    pub(crate) fn create<T>(
+        &self,
+        what: &str,
+        objects: u64,
+        make: impl FnOnce(&wgpu::Device) -> T,
+    ) -> Result<T, GpuError> {
         self.check()?;
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let internal = self.device.push_error_scope(wgpu::ErrorFilter::Internal);
@@ -173,7 +178,10 @@ pub fn adapters() -> Vec<AdapterSummary> {
 fn enumerate() -> Vec<wgpu::Adapter> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
         backends: wgpu::Backends::PRIMARY,
-        memory_budget_thresholds: wgpu::MemoryBudgetThresholds { for_resource_creation: Some(95), for_device_loss: None },
+        memory_budget_thresholds: wgpu::MemoryBudgetThresholds {
+            for_resource_creation: Some(95),
+            for_device_loss: None,
+        },
         ..wgpu::InstanceDescriptor::new_without_display_handle()
     });
     pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY))

@@ -7,11 +7,12 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use tyndall_graph::descriptor::{ParamDescriptor, ParamValue};
 use tyndall_graph::ParamSetting;
+use tyndall_graph::descriptor::{ParamDescriptor, ParamValue};
 use tyndall_graph::{Plan, SlotKind, Step};
 
-use crate::bindings::{Bound, PipelineCache};
+use crate::bindings::Bound;
+use crate::cache::PipelineCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::freshness::Freshness;
@@ -85,7 +86,7 @@ impl Executor {
     ) -> Result<Self, GpuError> {
         let slots = create_all(gpu, &plan)?;
         fill_stated(gpu, &plan, &slots)?;
-        let values: Vec<Vec<ParamValue>> = 
+        let values: Vec<Vec<ParamValue>> =
             positions(&plan).map(|pass| plan.params(pass).iter().map(at_start).collect()).collect();
         let mut ready = Vec::with_capacity(plan.passes.len());
         for (position, values) in positions(&plan).zip(&values) {
@@ -167,13 +168,8 @@ impl Executor {
         self.gpu.check()?;
         let start = Instant::now();
         self.set_live(options.frame);
-        let passes_run = self.freshness.decide(
-            &self.plan,
-            &self.values,
-            &self.scene,
-            &self.programs,
-            options.everything,
-        );
+        let passes_run =
+            self.freshness.decide(&self.plan, &self.values, &self.scene, &self.programs, options.everything);
         let mut watch = self.record(options)?;
         let cpu_us = start.elapsed().as_secs_f64() * 1e6;
         self.freshness.remember(&self.plan);

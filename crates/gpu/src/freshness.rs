@@ -48,9 +48,8 @@ impl Freshness {
                 hasher.finish()
             })
             .collect();
-        let scene = descriptors()
-            .map(|descriptor| descriptor.scene.iter().map(|name| scene.intern(name)).collect())
-            .collect();
+        let scene =
+            descriptors().map(|descriptor| descriptor.scene.iter().map(|name| scene.intern(name)).collect()).collect();
         let always = descriptors()
             .map(|descriptor| {
                 let history = descriptor.ports.iter().any(|port| matches!(port.role, Role::History(_)));
@@ -174,9 +173,9 @@ impl Freshness {
 
     fn valid(&self, plan: &Plan, port: usize) -> bool {
         let planned = &plan.ports[port];
-        planned.pass.is_none_or(|pass| {
-            self.holds[planned.slot as usize] == Some((port, self.fingerprints[pass as usize]))
-        })
+        planned
+            .pass
+            .is_none_or(|pass| self.holds[planned.slot as usize] == Some((port, self.fingerprints[pass as usize])))
     }
 
     /// Marks passes whose kept result would be overwritten in this frame before its last reader comes.

@@ -26,8 +26,8 @@ impl Kernel {
         let label = setup.pass.descriptor().name.clone();
         let found = linked.entry_points.iter().find(|point| point.name == entry);
         let workgroup = found.map(|point| point.workgroup_size).filter(|size| size.iter().all(|threads| *threads > 0));
-        let workgroup = workgroup
-            .ok_or_else(|| setup.pass.refuse(format!("its shader has no compute entry point `{entry}`")))?;
+        let workgroup =
+            workgroup.ok_or_else(|| setup.pass.refuse(format!("its shader has no compute entry point `{entry}`")))?;
         let bindings = Bindings::new(setup.gpu, linked, setup.pass, setup.scene, &label)?;
         let constants = constants(linked, setup.pass, setup.values);
         let constants: Vec<(&str, f64)> = constants.iter().map(|(name, value)| (name.as_str(), *value)).collect();

@@ -4,6 +4,7 @@
 //! whoever implements [`Programs`].
 
 mod bindings;
+mod cache;
 mod device;
 mod error;
 mod executor;
@@ -17,7 +18,7 @@ mod slots;
 mod timing;
 mod view;
 
-pub use bindings::PipelineCache;
+pub use cache::PipelineCache;
 pub use device::{AdapterSummary, Gpu, adapters};
 pub use error::{GpuError, bytes};
 pub use executor::{Executor, FRAMES_PER_SECOND, FrameOptions, FrameReport, PassCounters};

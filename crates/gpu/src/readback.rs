@@ -1,8 +1,8 @@
 //! What a port holds, as numbers on the CPU.
 
 use half::f16;
-use tyndall_graph::descriptor::{Dimension, Format};
 use tyndall_graph::Resource;
+use tyndall_graph::descriptor::{Dimension, Format};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -30,7 +30,10 @@ pub struct PortData {
 /// Copies a slot to the CPU. Waits for the GPU.
 pub(crate) fn read(gpu: &Gpu, name: &str, resource: &Resource, physical: &Physical) -> Result<PortData, GpuError> {
     match (physical, resource) {
-        (Physical::Texture { texture, .. }, Resource::Texture { dimension, format, width, height, depth_or_layers }) => {
+        (
+            Physical::Texture { texture, .. },
+            Resource::Texture { dimension, format, width, height, depth_or_layers },
+        ) => {
             let bytes = read_texture(gpu, name, texture, *format)?;
             let data = numbers(*format, &bytes);
             Ok(PortData {

@@ -1,9 +1,10 @@
 //! What a pass sees when it is made ready for a plan, and when it records a frame.
 
-use tyndall_graph::descriptor::{Format, ParamValue};
 use tyndall_graph::Resource;
+use tyndall_graph::descriptor::{Format, ParamValue};
 
-use crate::bindings::{Bound, PipelineCache};
+use crate::bindings::Bound;
+use crate::cache::PipelineCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::kernel::{Kernel, Raster};

@@ -108,8 +108,7 @@ fn create(gpu: &Gpu, label: &str, slot: &Slot) -> Result<Physical, GpuError> {
 /// Whoever writes a port may store into it or draw into it, and read its own outputs in a later step; so a slot has
 /// every usage that its format allows.
 fn usages(slot: &Slot) -> wgpu::TextureUsages {
-    let usages =
-        wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::COPY_DST | wgpu::TextureUsages::TEXTURE_BINDING;
+    let usages = wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::COPY_DST | wgpu::TextureUsages::TEXTURE_BINDING;
     match slot.resource {
         Resource::Texture { format: Format::Depth32Float, .. } => usages | wgpu::TextureUsages::RENDER_ATTACHMENT,
         Resource::Texture { dimension: Dimension::D3, .. } => usages | wgpu::TextureUsages::STORAGE_BINDING,

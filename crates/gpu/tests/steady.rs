@@ -5,7 +5,8 @@ mod support;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use support::{ByHand, chain, executor, planned};
+use support::by_hand::ByHand;
+use support::{chain, executor, planned};
 use tyndall_gpu::{FrameOptions, Gpu};
 
 thread_local! {

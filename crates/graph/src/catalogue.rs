@@ -8,11 +8,14 @@ use rustc_hash::FxHashMap;
 use crate::descriptor::PassDescriptor;
 use crate::signature::{DescriptorError, Signature};
 
+/// Width and height in texels of the picture in a file; `None` where it holds none that can be read.
+pub type PictureSize = fn(&Path) -> Option<(u32, u32)>;
+
 /// Descriptors of every pass, by name.
 #[derive(Debug, Clone, Default)]
 pub struct Catalogue {
-    /// The width and height in texels of the picture in a file, for passes that read pictures. `None`: no picture.
-    pub picture_size: Option<fn(&Path) -> Option<(u32, u32)>>,
+    /// How large the pictures in files are, for passes whose ports have their size.
+    pub picture_size: Option<PictureSize>,
     kinds: FxHashMap<String, Arc<Kind>>,
 }
 

@@ -26,7 +26,7 @@ mod signature;
 mod table;
 mod validate;
 
-pub use catalogue::Catalogue;
+pub use catalogue::{Catalogue, PictureSize};
 pub use codes::CODES;
 pub use explain::explain;
 pub use file::{GraphFile, InputEntry, OutputEntry, ParamEntry, PassEntry, Spanned, Switch, Text, read};

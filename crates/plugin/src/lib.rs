@@ -20,8 +20,8 @@ mod search;
 pub use codes::CODES;
 pub use folder::{Folder, Origin};
 pub use manifest::Version;
-pub use ports::Notice;
 pub use pass::{Plugin, RustPass, Shaders};
+pub use ports::Notice;
 pub use registry::{Registry, RegistryPass};
 pub use search::{SearchPath, find_folders, shader_modules};
 

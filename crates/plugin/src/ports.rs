@@ -189,7 +189,8 @@ fn arguments(content: &Node) -> Vec<&Node> {
 }
 
 fn param(decoder: &mut Decoder<'_>, entry: &Entry, linked: &Linked) -> Option<ParamDescriptor> {
-    let fields = decoder.fields(&entry.value, "a parameter", &["about", "unit", "default", "range", "choices", "unbuilt"])?;
+    let fields =
+        decoder.fields(&entry.value, "a parameter", &["about", "unit", "default", "range", "choices", "unbuilt"])?;
     let reflected = linked.param(&entry.name);
     if fields.get("unbuilt").is_some() && reflected.is_none() {
         return unbuilt(decoder, entry, &fields);

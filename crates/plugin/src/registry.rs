@@ -2,13 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::path::Path;
 use std::sync::Arc;
 
 use tyndall_document::{Diagnostic, Diagnostics, Place, near};
 use tyndall_gpu::{GpuError, Program, Programs, Setup};
-use tyndall_graph::Catalogue;
 use tyndall_graph::descriptor::PassDescriptor;
+use tyndall_graph::{Catalogue, PictureSize};
 use tyndall_shader::{Library, check_all, link};
 
 use crate::codes::{BAD_DESCRIPTOR, DUPLICATE_PLUGIN, MISSING_SHADER};
@@ -87,7 +86,7 @@ impl Registry {
 
     /// Tells how large the pictures in files are, for the passes whose ports have their size.
     #[must_use]
-    pub fn with_picture_size(mut self, picture_size: fn(&Path) -> Option<(u32, u32)>) -> Self {
+    pub fn with_picture_size(mut self, picture_size: PictureSize) -> Self {
         self.catalogue.picture_size = Some(picture_size);
         self
     }
@@ -192,7 +191,11 @@ impl Builder<'_> {
         };
         let Some(over) = over else {
             let place = manifest.source.place(pass.name_span);
-            self.out.push(Diagnostic::error(crate::codes::BAD_PORT, place, "the pass has no output, so nothing to run over"));
+            self.out.push(Diagnostic::error(
+                crate::codes::BAD_PORT,
+                place,
+                "the pass has no output, so nothing to run over",
+            ));
             return;
         };
         let make = Make::Dispatch { file: pass.shader.clone(), over };

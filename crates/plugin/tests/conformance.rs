@@ -67,14 +67,23 @@ fn every_pass_renders_over_garbage_without_nan() {
 /// The test of the test: what nobody writes stays NaN.
 #[test]
 fn garbage_is_seen() {
-    let registry = support::with_plugin("t", &[
-        ("plugin.ron", r#"(name: "t", version: "0.1.0", about: "For tests.", passes: {
-            "p": (about: "Half a picture.", shader: "p.wgsl", ports: { "color": (about: "Half", size: Frame(1.0)) }) })"#),
-        ("p.wgsl", "var color: texture_storage_2d<rgba32float, write>;
+    let registry = support::with_plugin(
+        "t",
+        &[
+            (
+                "plugin.ron",
+                r#"(name: "t", version: "0.1.0", about: "For tests.", passes: {
+            "p": (about: "Half a picture.", shader: "p.wgsl", ports: { "color": (about: "Half", size: Frame(1.0)) }) })"#,
+            ),
+            (
+                "p.wgsl",
+                "var color: texture_storage_2d<rgba32float, write>;
             @compute @workgroup_size(8, 8) fn main(@builtin(global_invocation_id) id: vec3<u32>) {
                 if id.x < 2 { textureStore(color, id.xy, vec4(1.0)); }
-            }"),
-    ]);
+            }",
+            ),
+        ],
+    );
     let text = r#"(version: 1, size: (4, 3), passes: { "p": (use: "t.p") }, outputs: { "color": "p.color" })"#;
     let mut executor = executor(&gpu(), &registry, planned(&registry, text, |_, _| ()));
     executor.poison(f32::NAN).unwrap();
@@ -104,7 +113,8 @@ fn is_in_range(param: &ParamDescriptor) -> bool {
 
 /// The pass as `tested`, all its inputs fed: from a geometry buffer's port of the same name, or else with a colour.
 fn graph(descriptor: &PassDescriptor, picture: &Path) -> String {
-    let inputs: Vec<String> = descriptor.inputs().map(|port| format!("\"{}\": \"{}\"", port.name, source(port))).collect();
+    let inputs: Vec<String> =
+        descriptor.inputs().map(|port| format!("\"{}\": \"{}\"", port.name, source(port))).collect();
     let file = descriptor.params.iter().find(|param| matches!(param.default, ParamValue::File(_)));
     let params = file.map(|param| format!("\"{}\": {:?}", param.name, picture.display().to_string()));
     format!(
@@ -116,7 +126,7 @@ fn graph(descriptor: &PassDescriptor, picture: &Path) -> String {
         descriptor.name,
         inputs.join(", "),
         params.unwrap_or_default(),
-        descriptor.outputs().next().unwrap().name,
+        descriptor.outputs().next().expect("a pass has an output").name,
     )
 }
 

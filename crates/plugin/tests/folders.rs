@@ -76,7 +76,8 @@ fn a_folder_replaces_the_files_of_a_crate() {
     let files = std::fs::read_dir(core).unwrap().map(|entry| entry.unwrap().path());
     for file in files.filter(|file| file.is_file()) {
         let name = file.file_name().unwrap().to_str().unwrap();
-        let text = std::fs::read_to_string(&file).unwrap().replace("* params.factor, 1.0)", "* params.factor + 10.0, 1.0)");
+        let text =
+            std::fs::read_to_string(&file).unwrap().replace("* params.factor, 1.0)", "* params.factor + 10.0, 1.0)");
         put(plugins.path(), "core", &[(name, &text)]);
     }
     let scale = "\"core.scale\", inputs: { \"input\": \"c.color\" }, params: { \"factor\": (3.0, 3.0, 3.0) }";

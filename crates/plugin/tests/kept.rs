@@ -4,7 +4,9 @@ mod support;
 
 use std::collections::BTreeSet;
 
-use support::{FOG, LIGHTS, Random, bits, content, executor, gpu, planned, registry, run_all, scene, set_scene, with_plugin};
+use support::{
+    FOG, LIGHTS, Random, bits, content, executor, gpu, planned, registry, run_all, scene, set_scene, with_plugin,
+};
 use tyndall_gpu::{Executor, FrameOptions};
 use tyndall_graph::descriptor::ParamValue;
 use tyndall_graph::{Keep, Order};
@@ -53,7 +55,8 @@ fn only_tone_mapping_runs_again_where_only_its_exposure_changes() {
 
 #[test]
 fn a_scene_that_moves_runs_its_readers_alone() {
-    let moving = "Point(position: Keys([(0.0, (1.0, 2.5, 0.0)), (1.0, (-1.0, 2.5, 0.0))]), intensity: (20.0, 18.0, 15.0))";
+    let moving =
+        "Point(position: Keys([(0.0, (1.0, 2.5, 0.0)), (1.0, (-1.0, 2.5, 0.0))]), intensity: (20.0, 18.0, 15.0))";
     let (gpu, registry, scene) = (gpu(), registry(&[]), scene(moving));
     assert_eq!(scene.animated(), ["lights"]);
     let keep = Keep::Edges { live: BTreeSet::new(), animated: set(&["lights"]) };
@@ -146,7 +149,13 @@ fn random_graph(random: &mut Random, passes: usize) -> (String, Vec<(String, &'s
             1..=3 => {
                 let (a, b) = (near(random), near(random));
                 params.push((pass.clone(), "factor"));
-                (format!("(use: \"core.add\", inputs: {{ \"a\": \"{a}\", \"b\": \"{b}\" }}, params: {{ \"factor\": {} }})", factor(random)), "sum")
+                (
+                    format!(
+                        "(use: \"core.add\", inputs: {{ \"a\": \"{a}\", \"b\": \"{b}\" }}, params: {{ \"factor\": {} }})",
+                        factor(random)
+                    ),
+                    "sum",
+                )
             }
             4..=6 => {
                 params.push((pass.clone(), "value"));
@@ -154,12 +163,22 @@ fn random_graph(random: &mut Random, passes: usize) -> (String, Vec<(String, &'s
             }
             7..=8 => {
                 params.push((pass.clone(), "factor"));
-                (format!("(use: \"mix.change\", inputs: {{ \"image\": \"{}\" }}, params: {{ \"factor\": {} }})", near(random), factor(random)), "image")
+                (
+                    format!(
+                        "(use: \"mix.change\", inputs: {{ \"image\": \"{}\" }}, params: {{ \"factor\": {} }})",
+                        near(random),
+                        factor(random)
+                    ),
+                    "image",
+                )
             }
             _ => {
                 params.push((pass.clone(), "factor"));
                 let (now, before) = (near(random), near(random));
-                (format!("(use: \"mix.follow\", inputs: {{ \"input\": \"{now}\", \"before\": \"{before}\" }})"), "mixed")
+                (
+                    format!("(use: \"mix.follow\", inputs: {{ \"input\": \"{now}\", \"before\": \"{before}\" }})"),
+                    "mixed",
+                )
             }
         };
         text += &format!("\"{pass}\": {line},\n");
@@ -190,21 +209,26 @@ fn what_is_kept_is_what_would_run() {
         let (text, params) = random_graph(random, 16);
         let live = (0..2).map(|_| &params[random.below(params.len())]).map(|(pass, param)| format!("{pass}.{param}"));
         let keep = Keep::Edges { live: live.collect(), animated: BTreeSet::new() };
-        let mut kept = executor(&gpu, &registry, planned(&registry, &text, |_, options| {
-            if seed % 3 > 0 {
-                options.keep = keep;
-            }
-            if seed % 2 > 0 {
-                options.order = Order::Shuffled(seed);
-            }
-        }));
+        let mut kept = executor(
+            &gpu,
+            &registry,
+            planned(&registry, &text, |_, options| {
+                if seed % 3 > 0 {
+                    options.keep = keep;
+                }
+                if seed % 2 > 0 {
+                    options.order = Order::Shuffled(seed);
+                }
+            }),
+        );
         let mut fresh = executor(&gpu, &registry, planned(&registry, &text, |_, options| options.share = false));
         for step in 0..60 {
             for _ in 0..random.below(3) {
                 let (pass, param) = &params[random.below(params.len())];
                 let value = random_value(random, param);
                 // A pass that nothing asks for is in neither plan.
-                let done = [&mut kept, &mut fresh].map(|executor| executor.set_param(pass, param, value.clone()).is_ok());
+                let done =
+                    [&mut kept, &mut fresh].map(|executor| executor.set_param(pass, param, value.clone()).is_ok());
                 assert_eq!(done[0], done[1]);
             }
             if random.below(10) == 0 {

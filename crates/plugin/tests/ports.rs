@@ -249,9 +249,7 @@ fn every_format_reads_back_what_was_written() {
             let x = f32::from(x);
             match format {
                 "rgba8unorm" => [x / 255.0, (51.0 + x) / 255.0, 1.0, 1.0],
-                "r32uint" | "rg32uint" | "rgba32uint" => {
-                    [1.0 + x, 70000.0 + x, (16_777_216 + x as u32) as f32, x]
-                }
+                "r32uint" | "rg32uint" | "rgba32uint" => [1.0 + x, 70000.0 + x, (16_777_216 + x as u32) as f32, x],
                 _ => [0.25 + x, x - 2.0, 1024.0 + x, x],
             }
         };

@@ -3,8 +3,12 @@
 //! Two steps: a rasteriser finds the visible triangle, and a compute shader meets the pixel's ray with that triangle,
 //! so that distances do not carry a rasteriser's interpolation.
 
-use tyndall_plugin::descriptor::{Class, Dimension, Disabled, Format, PassDescriptor, PortDescriptor, PortKind, Role, SizeRule};
-use tyndall_plugin::{GpuError, Kernel, Program, Raster, RasterTargets, Recorder, Resource, RustPass, Setup, Shaders, wgpu};
+use tyndall_plugin::descriptor::{
+    Class, Dimension, Disabled, Format, PassDescriptor, PortDescriptor, PortKind, Role, SizeRule,
+};
+use tyndall_plugin::{
+    GpuError, Kernel, Program, Raster, RasterTargets, Recorder, Resource, RustPass, Setup, Shaders, wgpu,
+};
 
 /// The pass.
 pub(crate) fn pass() -> RustPass {
@@ -18,9 +22,10 @@ pub(crate) fn pass() -> RustPass {
 fn descriptor() -> PassDescriptor {
     PassDescriptor {
         name: "core.gbuffer".to_owned(),
-        about: "What each pixel's ray meets first: distance, normal and material. One ray through each pixel's centre, \
+        about:
+            "What each pixel's ray meets first: distance, normal and material. One ray through each pixel's centre, \
                 nothing anti-aliased, no near or far plane."
-            .to_owned(),
+                .to_owned(),
         source: "Burns and Hunt 2013 (visibility buffer); Möller and Trumbore 1997 (ray and triangle)".to_owned(),
         ports: vec![
             output(
@@ -60,7 +65,9 @@ fn descriptor() -> PassDescriptor {
             ),
         ],
         params: Vec::new(),
-        scene: ["camera", "materials", "objects", "texels", "textures", "triangles", "vertices"].map(str::to_owned).into(),
+        scene: ["camera", "materials", "objects", "texels", "textures", "triangles", "vertices"]
+            .map(str::to_owned)
+            .into(),
         side_effect: false,
         revision: 1,
     }

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use tyndall_image::Image;
 use tyndall_plugin::descriptor::{
-    Class, Dimension, Disabled, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role, SizeRule,
+    Class, Dimension, Disabled, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role,
+    SizeRule,
 };
 use tyndall_plugin::{GpuError, Program, Recorder, Resource, RustPass, Setup};
 
@@ -21,8 +22,7 @@ pub(crate) fn pass() -> RustPass {
 fn descriptor() -> PassDescriptor {
     PassDescriptor {
         name: "core.image".to_owned(),
-        about: "A picture from a file: EXR, HDR, PNG (decoded to linear) or NPY, in its own size."
-            .to_owned(),
+        about: "A picture from a file: EXR, HDR, PNG (decoded to linear) or NPY, in its own size.".to_owned(),
         source: String::new(),
         ports: vec![PortDescriptor {
             name: "color".to_owned(),

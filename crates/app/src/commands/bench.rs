@@ -95,9 +95,8 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Bench) -> Result<(), 
 
 /// Times each pass in frames of its own: timestamps around every pass at once would distort them all.
 fn time_passes(running: &mut Running<'_>, verb: &Bench, runs: &[u64]) -> Result<Vec<PassFigures>, Failure> {
-    let count = running.executor.plan().passes.len();
-    let mut figures = Vec::with_capacity(count);
-    for pass in 0..count {
+    let mut figures = Vec::with_capacity(runs.len());
+    for (pass, runs) in runs.iter().enumerate() {
         let (mut cpu, mut gpu) = (Vec::new(), Vec::new());
         for frame in 0..verb.frames.min(MOST_FRAMES_PER_PASS) {
             let options = FrameOptions { frame, everything: true, timing: Timing::Pass(pass), cpu_times: true };
@@ -106,7 +105,7 @@ fn time_passes(running: &mut Running<'_>, verb: &Bench, runs: &[u64]) -> Result<
         }
         figures.push(PassFigures {
             name: running.executor.plan().pass_name(pass as u32).to_owned(),
-            runs: runs[pass],
+            runs: *runs,
             cpu_us: median(&mut cpu).unwrap_or_default(),
             gpu_us: median(&mut gpu),
         });

@@ -13,8 +13,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Check) -> Result<(), 
         let mut found = Diagnostics::default();
         match plugins::registry(app, arguments, &[path]) {
             Ok(registry) => {
-                let graph =
-                    GraphArguments { graph: path.clone(), scene: None, size: None, set: Vec::new() };
+                let graph = GraphArguments { graph: path.clone(), scene: None, size: None, set: Vec::new() };
                 let loaded = loading::try_load(&graph, &registry, &mut found);
                 if let Some(loaded) = loaded.filter(|_| !found.has_errors()) {
                     let wanted = loading::Wanted { roots: tyndall_graph::Roots::Outputs, keep: false, live: &[] };

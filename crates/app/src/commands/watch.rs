@@ -72,6 +72,7 @@ fn matters(event: &Event, files: &[PathBuf]) -> bool {
     changes && event.paths.iter().any(|path| is_source(path) || files.iter().any(|file| same(path, file)))
 }
 
+#[allow(clippy::needless_pass_by_value, reason = "`map_err` hands it over")]
 fn unwatchable(error: notify::Error) -> Failure {
     Failure::Usage(format!("the files cannot be watched: {error}"))
 }

@@ -2,6 +2,7 @@
 //!
 //! Set but missing fails; unset, a line says how many tests did not run.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use tyndall_image::read;
@@ -29,7 +30,8 @@ fn assets() -> Option<PathBuf> {
 #[test]
 fn real_models_render() {
     let Some(folder) = assets() else {
-        println!("not run: {} tests need TYNDALL_ASSETS", MODELS.len());
+        // Past the test harness, which would keep to itself what a test prints that passes.
+        writeln!(std::io::stdout(), "not run: 1 test needs TYNDALL_ASSETS").unwrap();
         return;
     };
     let desk = Desk::new();

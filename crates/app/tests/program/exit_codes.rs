@@ -95,3 +95,14 @@ fn a_reader_that_goes_away_is_no_reason_to_panic() {
         assert!(!err.contains("panicked"), "{arguments:?}: {err}");
     }
 }
+
+#[test]
+fn with_several_causes_the_highest_code_counts() {
+    let desk = Desk::new();
+    let ended = desk.ends(3, &["render", "missing.graph.ron", "--adapter", "no such adapter"]);
+    assert!(ended.err.contains("missing.graph.ron") && ended.err.contains("no such adapter"), "{}", ended.err);
+    desk.ends(3, &["render", "fog.graph.ron", "--set", "nothing=1", "--adapter", "no such adapter"]);
+    let adapters = desk.ends(0, &["adapters"]);
+    let name: String = adapters.out.chars().take(4).collect();
+    desk.ends(2, &["render", "fog.graph.ron", "--set", "nothing=1", "--adapter", &name]);
+}

@@ -1,5 +1,6 @@
 //! Input that nobody means: whatever it is, the program ends with 0, 2 or 3 and without a panic.
 
+use crate::plugins::{GRAPH, MANIFEST, SHADER};
 use crate::run::{Desk, SCENE, shipped};
 
 /// Small, and the same on every machine.
@@ -141,6 +142,22 @@ fn broken_models() {
         };
         put(&desk, "a.glb", &bytes, "model");
         check_and_draw(&desk, &format!("model {round}"));
+    }
+}
+
+#[test]
+fn broken_plugins() {
+    let desk = Desk::new();
+    desk.put("fog.graph.ron", GRAPH);
+    let mut random = Random(0x0bad_5eed_cafe_f00d);
+    for round in 0..2 * ROUNDS {
+        let manifest = round % 2 == 0;
+        let bytes = mutate(&mut random, if manifest { MANIFEST } else { SHADER }.as_bytes());
+        desk.put("plugins/tint/plugin.ron", MANIFEST);
+        desk.put("plugins/tint/invert.wgsl", SHADER);
+        let name = if manifest { "plugins/tint/plugin.ron" } else { "plugins/tint/invert.wgsl" };
+        put(&desk, name, &bytes, "plugin");
+        check_and_draw(&desk, &format!("plugin {round}: {}", String::from_utf8_lossy(&bytes)));
     }
 }
 

@@ -18,3 +18,4 @@ mod run;
 mod settings;
 mod show;
 mod tables;
+mod watch;

@@ -6,7 +6,8 @@ use tyndall_image::read;
 
 use crate::run::{Desk, Ended};
 
-const MANIFEST: &str = r#"(
+/// The manifest of a plugin with one pass.
+pub const MANIFEST: &str = r#"(
     name: "tint",
     version: "0.1.0",
     about: "Tints.",
@@ -23,7 +24,8 @@ const MANIFEST: &str = r#"(
     },
 )"#;
 
-const SHADER: &str = "
+/// Its shader.
+pub const SHADER: &str = "
 struct Params { level: f32 }
 var<uniform> params: Params;
 var radiance: texture_2d<f32>;
@@ -39,7 +41,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 }
 ";
 
-const GRAPH: &str = r#"(
+/// A graph that uses it.
+pub const GRAPH: &str = r#"(
     version: 1,
     passes: {
         "grey": (use: "core.constant", params: { "value": (0.25, 0.5, 1.0) }),
@@ -121,21 +124,22 @@ fn a_plugin_path_that_holds_none_is_a_mistake() {
     assert!(ended.code == 2 && ended.err.contains("no-such-folder"), "{}", ended.err);
 }
 
+/// With a shader that does not compile there is nothing that a machine could run: `render` ends with 3.
 #[test]
 fn a_mistake_in_a_shader_points_into_it() {
-    for (from, to, line) in [
-        ("params.level - color", "params.level - colour", "invert.wgsl:13:"),
-        ("id.xy >= textureDimensions(inverted)", "id.xy >= 1.5", "invert.wgsl:9:"),
-        ("var radiance:", "var radiation:", "invert.wgsl"),
-        // Whichever end is wrong, the default is not of the type.
-        ("level: f32", "level: vec3<f32>", "plugin.ron:13:"),
-        ("texture_storage_2d<rgba32float, write>", "texture_storage_2d<rgba32float, read>", "invert.wgsl"),
+    for (from, to, place, code) in [
+        ("params.level - color", "params.level - colour", "invert.wgsl:13:", 3),
+        ("id.xy >= textureDimensions(inverted)", "id.xy >= 1.5", "invert.wgsl:9:", 3),
+        ("var radiance:", "var radiation:", "invert.wgsl", 3),
+        ("texture_storage_2d<rgba32float, write>", "texture_storage_2d<rgba32float, read>", "invert.wgsl", 3),
+        // Whichever end is wrong, the default in the manifest is not of the type.
+        ("level: f32", "level: vec3<f32>", "plugin.ron:13:", 2),
     ] {
         assert!(SHADER.contains(from));
         let desk = desk("here/plugins", &SHADER.replace(from, to));
-        for verb in ["check", "render"] {
-            let ended = desk.ends(2, &[verb, "here/tint.graph.ron"]);
-            assert!(ended.err.contains(line), "{to}: {}", ended.err);
+        for (verb, code) in [("check", 2), ("render", code)] {
+            let ended = desk.ends(code, &[verb, "here/tint.graph.ron"]);
+            assert!(ended.err.contains(place), "{to}: {}", ended.err);
         }
     }
 }

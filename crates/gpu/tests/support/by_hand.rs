@@ -102,10 +102,9 @@ fn group(
         wgpu::BindGroupEntry { binding: 0, resource: params.as_entire_binding() },
         wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(to) },
     ];
-    entries.extend(from.map(|view| wgpu::BindGroupEntry {
-        binding: 2,
-        resource: wgpu::BindingResource::TextureView(view),
-    }));
+    entries.extend(
+        from.map(|view| wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(view) }),
+    );
     let layout = pipeline.get_bind_group_layout(0);
     device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("by hand"), layout: &layout, entries: &entries })
 }

@@ -2,10 +2,9 @@
 
 #![allow(dead_code, missing_docs, clippy::unwrap_used, reason = "each test and benchmark uses a part")]
 
-mod by_hand;
+pub mod by_hand;
 mod programs;
 
-pub use by_hand::ByHand;
 pub use programs::{catalogue, shaders};
 
 use std::fmt::Write;

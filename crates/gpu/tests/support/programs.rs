@@ -6,8 +6,8 @@ use std::sync::Arc;
 use tyndall_document::{Source, render_text};
 use tyndall_gpu::{GpuError, Kernel, Program, Programs, Recorder, Setup};
 use tyndall_graph::descriptor::{
-    Class, Dimension, Disabled, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind,
-    Role, SizeRule,
+    Class, Dimension, Disabled, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role,
+    SizeRule,
 };
 use tyndall_graph::{Catalogue, Resource};
 use tyndall_shader::{Library, Linked, link};

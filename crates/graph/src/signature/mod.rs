@@ -155,11 +155,10 @@ fn size_order(descriptor: &PassDescriptor, ports: &[PortSignature], errors: &mut
 
 fn size_params(ports: &[PortSignature]) -> Vec<u32> {
     let amounts = ports.iter().filter_map(|port| port.rule).flat_map(Rule::amounts);
-    let params =
-        amounts.filter_map(|amount| match amount {
-            Amount::Param(param) | Amount::Picture(param, _) => Some(param),
-            _ => None,
-        });
+    let params = amounts.filter_map(|amount| match amount {
+        Amount::Param(param) | Amount::Picture(param, _) => Some(param),
+        _ => None,
+    });
     let mut params: Vec<u32> = params.collect();
     params.sort_unstable();
     params.dedup();

@@ -59,7 +59,10 @@ fn mistake(graph: &Graph, problem: &SizeProblem) -> Option<Diagnostic> {
             };
             let place = graph.size_param_places.get(&ParamRef { pass, param }).cloned();
             let place = place.unwrap_or_else(|| graph.place(of_pass.span));
-            Some(Diagnostic::error(codes::BAD_PICTURE, place, message).suggest("give the path of an EXR, HDR, PNG or NPY file"))
+            Some(
+                Diagnostic::error(codes::BAD_PICTURE, place, message)
+                    .suggest("give the path of an EXR, HDR, PNG or NPY file"),
+            )
         }
     }
 }

@@ -14,7 +14,12 @@ use tyndall_scene::{SCENE_DATA, Scene};
 
 /// The plugins that are compiled into the program.
 pub fn shipped() -> Vec<Plugin> {
-    vec![tyndall_core::plugin(), tyndall_airlight::plugin(), tyndall_surface_radiance::plugin(), tyndall_march::plugin()]
+    vec![
+        tyndall_core::plugin(),
+        tyndall_airlight::plugin(),
+        tyndall_surface_radiance::plugin(),
+        tyndall_march::plugin(),
+    ]
 }
 
 /// The shipped plugins, and those of these folders of plugins.
@@ -23,7 +28,8 @@ pub fn try_registry(paths: &[&Path]) -> Result<Registry, Diagnostics> {
         paths.iter().map(|path| SearchPath { path: path.to_path_buf(), required: true }).collect();
     let folders = find_folders(&paths).map_err(collected)?;
     let shared = shader_modules(tyndall_shaders::MODULES, &[]).map_err(collected)?;
-    Registry::new(shipped(), folders, &shared, SCENE_DATA)
+    let registry = Registry::new(shipped(), folders, &shared, SCENE_DATA)?;
+    Ok(registry.with_picture_size(|path| tyndall_image::read(path).ok().map(|image| (image.width, image.height))))
 }
 
 fn collected(mistakes: Vec<Diagnostic>) -> Diagnostics {
