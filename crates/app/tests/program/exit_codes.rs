@@ -85,7 +85,11 @@ fn a_full_disk_ends_with_3() {
 fn a_reader_that_goes_away_is_no_reason_to_panic() {
     use std::process::{Command, Stdio};
     let desk = Desk::new();
-    for arguments in [&["passes"][..], &["passes", "--json"], &["show", "fog.graph.ron"], &["--help"]] {
+    desk.put("wrong.graph.ron", "(version: 1, passes: {})");
+    let render = ["render", "fog.graph.ron", "--size", "8x8", "--output", "radiance=a.exr"];
+    let check = ["check", "wrong.graph.ron", "--format", "json"];
+    for arguments in [&["passes"][..], &["passes", "--json"], &["show", "fog.graph.ron"], &["--help"], &render, &check]
+    {
         let mut command = Command::new(env!("CARGO_BIN_EXE_tyndall"));
         command.args(arguments).current_dir(desk.path("")).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().unwrap();
