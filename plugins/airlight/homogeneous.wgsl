@@ -3,7 +3,7 @@
 #import ray
 #import airlight
 
-override nodes: u32 = 8;
+override nodes: u32 = 12;
 
 var<uniform> camera: Camera;
 var<uniform> medium: Medium;

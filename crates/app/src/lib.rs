@@ -51,7 +51,12 @@ impl App {
             Ok(arguments) => arguments,
             Err(code) => return code,
         };
-        match commands::run(&self, &arguments) {
+        let result = commands::run(&self, &arguments);
+        if terminal::output_lost() {
+            terminal::error("error: standard output cannot be written: is its disk full?");
+            return ExitCode::from(3);
+        }
+        match result {
             Ok(()) => ExitCode::SUCCESS,
             Err(failure) => {
                 failure.print();

@@ -1,6 +1,6 @@
 //! Ports as files.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use tyndall_gpu::{Executor, PortData};
 use tyndall_graph::descriptor::Class;
@@ -15,7 +15,7 @@ pub(crate) fn write_port(executor: &Executor, port: u32, path: &Path) -> Result<
     if supported(path)? == FileKind::Npy {
         let shape = shape(&data);
         match meaning {
-            Meaning::Color | Meaning::Vector if data.is_image => {
+            Meaning::Color | Meaning::Vector | Meaning::Display if data.is_image => {
                 let image = image(data).first_channels(3);
                 tyndall_image::write_array(path, &[shape[0], shape[1], 3], &image.data)?;
             }
@@ -34,15 +34,6 @@ pub(crate) fn no_picture(name: impl std::fmt::Display, path: &Path) -> Failure {
     Failure::Usage(format!("`{name}` is no two-dimensional picture, so {} cannot hold it: write .npy", path.display()))
 }
 
-/// The file that `--dump` writes for a port.
-pub(crate) fn dump_path(executor: &Executor, port: u32, folder: &Path) -> PathBuf {
-    let is_image = matches!(
-        executor.plan().resource(port),
-        tyndall_graph::Resource::Texture { dimension: tyndall_graph::descriptor::Dimension::D2, .. }
-    );
-    folder.join(format!("{}.{}", executor.plan().port_name(port), if is_image { "exr" } else { "npy" }))
-}
-
 fn meaning(class: Class) -> Meaning {
     match class {
         Class::Color => Meaning::Color,
@@ -57,7 +48,7 @@ fn image(data: PortData) -> Image {
     Image { width: data.width, height: data.height, layers: data.layers, channels: data.channels, data: data.data }
 }
 
-/// (height, width, channels) of pictures, (layers, height, width, channels) of other textures, (elements, numbers) of
+/// (height, width, channels) of pictures, colours and vectors with three, (layers, height, width, channels) of other textures, (elements, numbers) of
 /// buffers; one channel makes no axis.
 fn shape(data: &PortData) -> Vec<usize> {
     let (width, height, layers) = (data.width as usize, data.height as usize, data.layers as usize);

@@ -29,7 +29,7 @@ impl<'a> Running<'a> {
         registry: &Registry,
         cache: &mut PipelineCache,
     ) -> Result<Self, Failure> {
-        let largest = plan.slots.iter().map(|slot| slot.resource.bytes()).max().unwrap_or_default();
+        let largest = plan.roots.iter().map(|port| plan.resource(*port).bytes()).max().unwrap_or_default();
         memory::check(gpu, &plan, READBACK_COPIES * largest)?;
         let aspect = f64::from(plan.size.0) / f64::from(plan.size.1);
         let executor = Executor::new(gpu, Arc::new(plan), registry, cache, SceneBuffers::default())?;

@@ -1,16 +1,30 @@
 //! Standard output and standard error: a reader that goes away is no reason to panic.
 
-use std::io::{IsTerminal, Write, stderr, stdout};
+use std::io::{ErrorKind, IsTerminal, Result, Write, stderr, stdout};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Writes a line to standard output.
 pub(crate) fn line(text: &str) {
-    // Whoever reads may have closed the pipe; there is nobody left to tell.
-    let _ = writeln!(stdout(), "{text}");
+    note(writeln!(stdout(), "{text}").and_then(|()| stdout().flush()));
 }
 
 /// Writes a text as it is to standard output.
 pub(crate) fn text(text: &str) {
-    let _ = write!(stdout(), "{text}").and_then(|()| stdout().flush());
+    note(write!(stdout(), "{text}").and_then(|()| stdout().flush()));
+}
+
+static LOST: AtomicBool = AtomicBool::new(false);
+
+/// Whoever reads may have closed the pipe, and then there is nobody left to tell; all else is remembered.
+fn note(written: Result<()>) {
+    if written.is_err_and(|error| error.kind() != ErrorKind::BrokenPipe) {
+        LOST.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Something that was to go to standard output is lost: the disk that it goes to is full, say.
+pub(crate) fn output_lost() -> bool {
+    LOST.load(Ordering::Relaxed)
 }
 
 /// Writes a text to standard error, ended by a new line.

@@ -161,7 +161,8 @@ impl Gpu {
         let made = make(&self.device);
         self.created.fetch_add(objects, Ordering::Relaxed);
         let errors = [validation, internal, memory].map(|scope| pollster::block_on(scope.pop()));
-        match errors.into_iter().flatten().next() {
+        // What follows from a failed allocation is invalid too: the allocation is the cause.
+        match errors.into_iter().rev().flatten().next() {
             Some(error) => Err(refused(what, error)),
             None => Ok(made),
         }

@@ -38,7 +38,7 @@ pub enum GpuError {
         adapter: String,
     },
     /// The plan needs more memory than there is; nothing was allocated.
-    #[error("the plan needs {}, and only {} are free: choose a smaller --size", bytes(*.needed), bytes(*.available))]
+    #[error("the plan and reading its results back need {}, and only {} are free: choose a smaller --size", bytes(*.needed), bytes(*.available))]
     TooLittleMemory {
         /// Bytes that the plan and what reads it back need.
         needed: u64,

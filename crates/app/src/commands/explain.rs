@@ -11,7 +11,7 @@ use crate::{plugins, terminal};
 pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Explain) -> Result<(), Failure> {
     let registry = plugins::registry(app, arguments, &[&verb.graph.graph])?;
     let loaded = loading::load(&verb.graph, &registry)?;
-    let plan = loading::plan(&loaded, Wanted { roots: Roots::Outputs, keep: false, live: &[] })?;
+    let plan = loading::plan(&loaded, Wanted { roots: Roots::Outputs, keep: true, live: &[] })?;
     terminal::text(&tyndall_graph::explain(&plan, &verb.name)?);
     Ok(())
 }

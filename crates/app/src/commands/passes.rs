@@ -101,7 +101,7 @@ fn param_text(param: &ParamDescriptor) -> String {
     let mut facts = vec![type_name(&param.default).to_owned()];
     facts.extend((!param.unit.is_empty()).then(|| param.unit.clone()));
     facts.push(format!("default {}", param.default));
-    facts.extend(param.range.map(|(low, high)| format!("{low:?} to {high:?}")));
+    facts.extend(param.range.map(|(low, high)| format!("{low} to {high}")));
     facts.extend((!param.choices.is_empty()).then(|| format!("one of {}", param.choices.join(", "))));
     facts.extend(param.fixed.then(|| "part of the pipeline".to_owned()));
     format!("  {}: {}\n{}", param.name, facts.join(", "), wrapped(&param.about, "      "))

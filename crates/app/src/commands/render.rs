@@ -13,7 +13,7 @@ use crate::App;
 use crate::cli::{Arguments, Render};
 use crate::failure::Failure;
 use crate::loading::{self, Loaded, Wanted};
-use crate::pictures::{dump_path, no_picture, write_port};
+use crate::pictures::{no_picture, write_port};
 use crate::running::Running;
 use crate::{plugins, terminal};
 
@@ -34,7 +34,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Render) -> Result<Vec
     clock.lap("graph and scene");
     let (first, end) = verb.frames.unwrap_or((0, 1));
     let roots = match (&verb.dump, verb.output.is_empty()) {
-        (Some(_), _) => Roots::All,
+        (Some(_), _) => Roots::Ports(every_port(&loaded.graph).collect()),
         (None, true) => Roots::Outputs,
         (None, false) => Roots::Ports(outputs.iter().map(|output| output.port).collect()),
     };
@@ -80,7 +80,14 @@ fn outputs(verb: &Render, graph: &Graph) -> Result<Vec<Output>, Failure> {
     if verb.output.is_empty() {
         outputs = default_outputs(verb, graph);
     }
-    for output in &outputs {
+    if let Some(folder) = verb.dump.as_ref().filter(|folder| folder.exists() && !folder.is_dir()) {
+        return Err(Failure::Usage(format!("--dump {} is no folder", folder.display())));
+    }
+    for (index, output) in outputs.iter().enumerate() {
+        if outputs[..index].iter().any(|other| other.pattern == output.pattern) {
+            let path = output.pattern.display();
+            return Err(Failure::Usage(format!("two outputs go to {path}, and one would overwrite the other")));
+        }
         if supported(&output.pattern)? != FileKind::Npy && !is_picture(graph, output.port) {
             return Err(no_picture(graph.port_name(output.port), &output.pattern));
         }
@@ -97,7 +104,8 @@ fn outputs(verb: &Render, graph: &Graph) -> Result<Vec<Output>, Failure> {
 fn default_outputs(verb: &Render, graph: &Graph) -> Vec<Output> {
     let file = verb.graph.graph.file_name().unwrap_or_default().to_string_lossy();
     let stem = file.strip_suffix(".graph.ron").or_else(|| file.strip_suffix(".ron")).unwrap_or(&file);
-    let number = if verb.frames.is_some() { ".####" } else { "" };
+    let many = verb.frames.is_some_and(|(first, end)| end - first > 1);
+    let number = if many { ".####" } else { "" };
     let path = |name: &str, port: PortRef| {
         let suffix = match name {
             _ if !is_picture(graph, port) => "npy",
@@ -107,6 +115,14 @@ fn default_outputs(verb: &Render, graph: &Graph) -> Vec<Output> {
         Path::new("out").join(format!("{stem}.{name}{number}.{suffix}"))
     };
     graph.outputs.iter().map(|(name, port)| Output { port: *port, pattern: path(name, *port) }).collect()
+}
+
+/// Every port that a pass writes, those of passes that are switched off too.
+fn every_port(graph: &Graph) -> impl Iterator<Item = PortRef> {
+    graph.passes.node_weights().enumerate().flat_map(|(pass, of)| {
+        let ports = of.descriptor().ports.iter().enumerate().filter(|(_, port)| port.role.is_output());
+        ports.map(move |(port, _)| PortRef { pass: pass as u32, port: port as u32 })
+    })
 }
 
 fn is_picture(graph: &Graph, port: PortRef) -> bool {
@@ -126,10 +142,13 @@ fn write_frame(running: &Running<'_>, verb: &Render, outputs: &[Output], frame: 
     if let Some(folder) = &verb.dump {
         let many = verb.frames.is_some_and(|(first, end)| end - first > 1);
         let folder = if many { folder.join(format!("{frame:04}")) } else { folder.clone() };
-        for port in 0..executor.plan().ports.len() as u32 {
-            let path = dump_path(executor, port, &folder);
-            write_port(executor, port, &path)?;
-            told(&path, executor, port);
+        let graph = &executor.plan().graph;
+        for port in every_port(graph) {
+            let suffix = if is_picture(graph, port) { "exr" } else { "npy" };
+            let path = folder.join(format!("{}.{suffix}", graph.port_name(port)));
+            let Some(planned) = executor.plan().planned(port) else { continue };
+            write_port(executor, planned, &path)?;
+            told(&path, executor, planned);
         }
     }
     Ok(())

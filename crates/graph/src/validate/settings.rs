@@ -184,6 +184,8 @@ impl<'a> Validator<'a> {
         }
         if let ParamSetting::Value(ParamValue::File(path)) = setting {
             let size = self.catalogue.picture_size.and_then(|size| size(Path::new(path)));
+            // A file that is not there has been reported already.
+            let size = size.or_else(|| (!(self.exists)(Path::new(path))).then_some((1, 1)));
             // A later setting of the command line replaces that of the file, also where it is no picture.
             match size {
                 Some(size) => self.pictures.insert(param, size),

@@ -60,32 +60,32 @@ fn error(case: &Case, found: [f32; 3]) -> Option<f64> {
     worst
 }
 
-/// The nodes that the manifest gives where a graph gives none.
-const DEFAULT_NODES: u32 = 8;
+/// Fewer than the default of the manifest: for g above −0.5 the promise holds with these already.
+const NODES: u32 = 8;
 
 /// The project's promise is p99 0.25 % and 0.6 % at most; measured are 0.08 % and 0.10 %.
 #[test]
 fn henyey_greenstein() {
-    Errors::of(&random(6000, Kind::HenyeyGreenstein, 15.0), DEFAULT_NODES).expect("HG", 6000, 1.5e-3, 2.5e-3);
+    Errors::of(&random(6000, Kind::HenyeyGreenstein, 15.0), NODES).expect("HG", 6000, 1.5e-3, 2.5e-3);
 }
 
 #[test]
 fn every_phase_function() {
     for kind in [Kind::Isotropic, Kind::Rayleigh, Kind::CornetteShanks, Kind::Schlick, Kind::DoubleHenyeyGreenstein] {
-        Errors::of(&random(1500, kind, 15.0), DEFAULT_NODES).expect(&format!("{kind:?}"), 1500, 1.5e-3, 2.5e-3);
+        Errors::of(&random(1500, kind, 15.0), NODES).expect(&format!("{kind:?}"), 1500, 1.5e-3, 2.5e-3);
     }
 }
 
 /// Exponents to 64, cones from 5° to a half-space, and wider ones.
 #[test]
 fn spots() {
-    Errors::of(&random(3000, Kind::Spot, 15.0), DEFAULT_NODES).expect("spots", 1500, 1.5e-3, 5e-3);
-    Errors::of(&random(3000, Kind::WideSpot, 15.0), DEFAULT_NODES).expect("wide spots", 1500, 1.5e-3, 5e-3);
+    Errors::of(&random(3000, Kind::Spot, 15.0), NODES).expect("spots", 1500, 1.5e-3, 5e-3);
+    Errors::of(&random(3000, Kind::WideSpot, 15.0), NODES).expect("wide spots", 1500, 1.5e-3, 5e-3);
 }
 
 #[test]
 fn thick_media() {
-    Errors::of(&random(1500, Kind::HenyeyGreenstein, 60.0), DEFAULT_NODES).expect("to 60", 1400, 1.5e-3, 2.5e-3);
+    Errors::of(&random(1500, Kind::HenyeyGreenstein, 60.0), NODES).expect("to 60", 1400, 1.5e-3, 2.5e-3);
 }
 
 /// More nodes are better, and 4 are a draft.
@@ -143,7 +143,7 @@ fn edges() {
         let light = Light::Spot { position, intensity, radius, direction, exponent, cutoff };
         cases.push(Case { light, ..at(hg(0.5), DVec3::splat(0.1), near, 0.0, DVec3::NEG_Z, infinite) });
     }
-    let found = Probe::new(DEFAULT_NODES).run(&cases);
+    let found = Probe::new(NODES).run(&cases);
     for (case, found) in cases.iter().zip(found) {
         let worst = error(case, found).unwrap_or(0.0);
         assert!(worst < 5e-3, "{worst:.1e}: {found:?} for {case:?}");
@@ -164,5 +164,5 @@ fn directional() {
             Case { light, way, medium: Medium { phase, ..case.medium }, ..case }
         })
         .collect();
-    Errors::of(&cases, DEFAULT_NODES).expect("directional", 600, 2e-6, 1e-5);
+    Errors::of(&cases, NODES).expect("directional", 600, 2e-6, 1e-5);
 }
