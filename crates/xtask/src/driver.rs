@@ -114,7 +114,7 @@ impl System {
             Self::OtherLinux => {
                 "Install a Vulkan driver and the Vulkan loader; Mesa's lavapipe needs no graphics card."
             }
-            Self::MacOs => "Metal is part of macOS: this machine, or the session without a screen, offers no device.",
+            Self::MacOs => "Metal is part of macOS: this machine, or a login without a screen, offers no device.",
             Self::Windows => {
                 "Install the graphics card's driver; Direct3D 12 (with WARP) is part of Windows 10 and later."
             }
