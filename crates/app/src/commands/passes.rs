@@ -2,7 +2,8 @@
 
 use serde_json::{Value, json};
 use tyndall_graph::descriptor::{
-    Axis, Class, Dimension, Disabled, Extent, ParamDescriptor, ParamValue, PortDescriptor, PortKind, Role, SizeRule,
+    Axis, Class, Dimension, Disabled, Extent, ParamDescriptor, ParamValue, PortDescriptor, PortKind, Preset, Role,
+    SizeRule,
 };
 use tyndall_plugin::{Origin, RegistryPass};
 
@@ -77,6 +78,7 @@ fn document(pass: &RegistryPass) -> String {
     section(&mut text, "Inputs", descriptor.ports.iter().filter(|port| port.role.is_input()).map(port_text));
     section(&mut text, "Outputs", descriptor.ports.iter().filter(|port| port.role.is_output()).map(port_text));
     section(&mut text, "Parameters", descriptor.params.iter().map(param_text));
+    section(&mut text, "Presets", descriptor.presets.iter().map(preset_text));
     if !descriptor.scene.is_empty() {
         text += &format!("\nReads of the scene: {}\n", descriptor.scene.join(", "));
     }
@@ -107,6 +109,12 @@ fn param_text(param: &ParamDescriptor) -> String {
     facts.extend((!param.choices.is_empty()).then(|| format!("one of {}", param.choices.join(", "))));
     facts.extend(param.fixed.then(|| "part of the pipeline".to_owned()));
     format!("  {}: {}\n{}", param.name, facts.join(", "), wrapped(&param.about, "      "))
+}
+
+fn preset_text(preset: &Preset) -> String {
+    let values: Vec<String> = preset.values.iter().map(|(name, value)| format!("{name} {value}")).collect();
+    let values = if values.is_empty() { "the defaults".to_owned() } else { values.join(", ") };
+    wrapped(&format!("{}: {values}", preset.name), "  ") + &wrapped(&preset.about, "      ")
 }
 
 fn kind(kind: &PortKind) -> String {
@@ -219,6 +227,7 @@ fn as_json(pass: &RegistryPass) -> Value {
         "inputs": descriptor.ports.iter().filter(|port| port.role.is_input()).map(port_json).collect::<Vec<_>>(),
         "outputs": descriptor.ports.iter().filter(|port| port.role.is_output()).map(port_json).collect::<Vec<_>>(),
         "params": descriptor.params.iter().map(param_json).collect::<Vec<_>>(),
+        "presets": descriptor.presets.iter().map(preset_json).collect::<Vec<_>>(),
         "scene": descriptor.scene,
     })
 }
@@ -245,20 +254,29 @@ fn port_json(port: &PortDescriptor) -> Value {
     })
 }
 
-fn param_json(param: &ParamDescriptor) -> Value {
-    let default = match &param.default {
+fn preset_json(preset: &Preset) -> Value {
+    let values: serde_json::Map<String, Value> =
+        preset.values.iter().map(|(name, value)| (name.clone(), value_json(value))).collect();
+    json!({ "name": preset.name, "about": preset.about, "values": values })
+}
+
+fn value_json(value: &ParamValue) -> Value {
+    match value {
         ParamValue::Bool(on) => json!(on),
         ParamValue::Integer(number) => json!(number),
         ParamValue::Float(number) => json!(number),
         ParamValue::Vector(numbers) => json!(numbers),
         ParamValue::Choice(word) | ParamValue::File(word) => json!(word),
-    };
+    }
+}
+
+fn param_json(param: &ParamDescriptor) -> Value {
     json!({
         "name": param.name,
         "about": param.about,
         "unit": param.unit,
         "type": type_name(&param.default),
-        "default": default,
+        "default": value_json(&param.default),
         "range": param.range.map(|(low, high)| [low, high]),
         "choices": param.choices,
         "fixed": param.fixed,
