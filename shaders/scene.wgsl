@@ -8,7 +8,7 @@
 //     var<uniform> phase: Phase;              var<storage, read> objects: Objects;
 //     var<uniform> background: Background;    var<storage, read> materials: Materials;
 //     var<storage, read> lights: Lights;      var<storage, read> textures: Textures;
-//     var<storage, read> texels: Texels;
+//     var<storage, read> texels: Texels;      var<storage, read> shininesses: Shininesses;
 //
 // A list is a count, padding to 16 bytes, and at least one element, zeroed where the list is empty.
 
@@ -128,6 +128,10 @@ struct Material {
     texture: u32,               // index into the textures, its colour multiplies diffuse; NO_TEXTURE for none
     specular: vec3<f32>,        // k_s of the Phong lobe
     shininess: f32,             // n of the Phong lobe
+    shininess_index: u32,       // where n, or the nearest value, stands among the shininesses, from 1; 0 where k_s is 0
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
 }
 
 struct Materials {
@@ -136,6 +140,16 @@ struct Materials {
     pad1: u32,
     pad2: u32,
     items: array<Material>,
+}
+
+// The shininesses of the materials that have a Phong lobe, each once, growing: a table for each is made of this alone. At
+// most SHININESSES_MAX; of more, that many between the least and the largest, each the same factor above the one before.
+struct Shininesses {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<f32>,
 }
 
 // Values of two bits of Texture.wrap: what a coordinate outside 0..1 reads.

@@ -9,8 +9,9 @@ use crate::adjacency::Adjacency;
 use crate::frame::{Frame, FrameLight, View};
 use crate::gltf::encoded_wrap;
 use crate::layout;
-use crate::model::{Instance, LightKind, Medium};
+use crate::model::{Instance, LightKind, Material, Medium};
 use crate::scene::Scene;
+use crate::shininesses::Shininesses;
 
 /// The names of scene data, in the order of [`Encoded::items`].
 pub const SCENE_DATA: &[&str] = &[
@@ -25,6 +26,7 @@ pub const SCENE_DATA: &[&str] = &[
     "materials",
     "textures",
     "texels",
+    "shininesses",
 ];
 
 const CAMERA: usize = 0;
@@ -45,6 +47,7 @@ impl Encoded {
     pub(crate) fn of(scene: &Scene, time: f64, aspect: f64) -> Encoded {
         let frame = scene.at(time);
         let medium = scene.medium.as_ref().unwrap_or(&VACUUM);
+        let shininesses = Shininesses::of(&scene.materials);
         let bytes = [
             bytes_of(&camera(&frame.camera, aspect)).to_vec(),
             bytes_of(&layout::Medium::from(medium)).to_vec(),
@@ -54,9 +57,10 @@ impl Encoded {
             vertices(scene, &frame),
             triangles(scene, &frame),
             list(scene.instances.iter().map(object)),
-            list(scene.materials.iter().map(material)),
+            list(scene.materials.iter().map(|material| encoded_material(material, &shininesses))),
             textures(scene),
             texels(scene),
+            list(shininesses.values.iter().copied()),
         ];
         let items = SCENE_DATA.iter().copied().zip(bytes).collect();
         Encoded { items, time, aspect }
@@ -188,12 +192,14 @@ fn object(instance: &Instance) -> layout::Object {
     layout::Object { material, casts_shadow, ..Default::default() }
 }
 
-fn material(material: &crate::model::Material) -> layout::Material {
+fn encoded_material(material: &Material, shininesses: &Shininesses) -> layout::Material {
     layout::Material {
         diffuse: floats(material.diffuse),
         texture: material.texture.map_or(layout::NO_TEXTURE, |t| t as u32),
         specular: floats(material.specular),
         shininess: material.shininess as f32,
+        shininess_index: shininesses.index(material),
+        ..Default::default()
     }
 }
 

@@ -160,6 +160,14 @@ pub struct Material {
     pub specular: [f32; 3],
     /// n.
     pub shininess: f32,
+    /// Among the shininesses, from 1; 0 without a Phong lobe.
+    pub shininess_index: u32,
+    /// 0.
+    pub pad0: u32,
+    /// 0.
+    pub pad1: u32,
+    /// 0.
+    pub pad2: u32,
 }
 
 /// `NO_TEXTURE`.

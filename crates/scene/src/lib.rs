@@ -28,6 +28,7 @@ mod overrides;
 mod primitives;
 mod resolve;
 mod scene;
+mod shininesses;
 
 pub use self::codes::CODES;
 pub use self::encode::{Encoded, SCENE_DATA};
@@ -36,4 +37,5 @@ pub use self::mesh::Mesh;
 pub use self::overrides::{Override, Overrides};
 pub use self::primitives::Primitive;
 pub use self::scene::Scene;
+pub use self::shininesses::SHININESSES_MAX;
 pub use tyndall_shaders::scene::Phase;

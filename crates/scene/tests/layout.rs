@@ -43,7 +43,7 @@ fn structs_match_the_shader() {
     same!(structs, Light { position, kind, intensity, radius, direction, exponent, cos_cutoff, pad0, pad1, pad2 });
     same!(structs, Vertex { position, u, normal, v });
     same!(structs, Object { material, casts_shadow, pad0, pad1 });
-    same!(structs, Material { diffuse, texture, specular, shininess });
+    same!(structs, Material { diffuse, texture, specular, shininess, shininess_index, pad0, pad1, pad2 });
     same!(structs, Texture { offset, width, height, wrap });
     let (members, size) = &structs["Background"];
     assert_eq!((members.as_slice(), *size), ([("radiance".to_owned(), 0)].as_slice(), size_of::<Background>()));
@@ -52,7 +52,7 @@ fn structs_match_the_shader() {
 #[test]
 fn lists_start_with_the_header() {
     let structs = wgsl();
-    for name in ["Lights", "Vertices", "Triangles", "Objects", "Materials", "Textures"] {
+    for name in ["Lights", "Vertices", "Triangles", "Objects", "Materials", "Textures", "Shininesses"] {
         let (members, _) = &structs[name];
         let expected = [("count", 0), ("pad0", 4), ("pad1", 8), ("pad2", 12), ("items", size_of::<Header>())];
         let expected: Vec<(String, usize)> = expected.map(|(n, o)| (n.to_owned(), o)).to_vec();
