@@ -9,7 +9,7 @@ use crate::airlight::airlight;
 use crate::lights::incident;
 use crate::medium::transmittance;
 use crate::phase::phase;
-use crate::quadrature::{gauss_legendre, integrate};
+use crate::quadrature::gauss_legendre;
 use crate::ray::Ray;
 use crate::scene::{Light, Medium, Phase};
 use glam::DVec3;
@@ -58,29 +58,24 @@ pub fn scattered(light: &Light, medium: &Medium, surface: &Surface) -> DVec3 {
         Light::Spot { .. } => scattered_from_all_around(light, medium, surface),
         Light::Point { intensity, .. } => {
             let incident = incident(light, surface.position);
-            let terms = surface.terms(incident.to_light, |n, angle| {
-                per_channel(medium.extinction, |extinction| {
-                    if extinction == 0.0 { 0.0 } else { convolution(&medium.phase, n, extinction * incident.way, angle) }
-                })
-            });
-            intensity * medium.scattering() / incident.way * terms
+            let fields = medium.extinction.to_array().map(|sigma| Field::of_point(&medium.phase, sigma * incident.way));
+            intensity * medium.scattering() / incident.way * surface.terms(incident.to_light, &fields)
         }
         Light::Directional { direction, irradiance } => {
-            let terms = surface.terms(-direction, |n, angle| DVec3::splat(sun_convolution(&medium.phase, n, angle)));
-            per_channel(medium.extinction, |extinction| f64::from(extinction > 0.0)) * medium.albedo * irradiance * terms
+            let fields = [0, 1, 2].map(|_| Field::of_sun(&medium.phase));
+            let lit = DVec3::from_array(medium.extinction.to_array().map(|sigma| f64::from(sigma > 0.0)));
+            lit * medium.albedo * irradiance * surface.terms(-direction, &fields)
         }
     }
 }
 
-fn per_channel(value: DVec3, f: impl Fn(f64) -> f64) -> DVec3 {
-    DVec3::new(f(value.x), f(value.y), f(value.z))
-}
-
 impl Surface {
-    /// ρ/π·J¹ + k_s·Jⁿ, of a function of n and of the angle between the lobe and the light.
-    fn terms(&self, to_light: DVec3, convolution: impl Fn(f64, f64) -> DVec3) -> DVec3 {
+    /// ρ/π·J¹ + k_s·Jⁿ of the three channels.
+    fn terms(&self, to_light: DVec3, fields: &[Field; 3]) -> DVec3 {
         let lobe = |factor: DVec3, n: f64, axis: DVec3| {
-            if factor == DVec3::ZERO { DVec3::ZERO } else { factor * convolution(n, axis.angle_between(to_light)) }
+            let theta = axis.angle_between(to_light);
+            let channel = |i: usize| if factor[i] == 0.0 { 0.0 } else { factor[i] * fields[i].over_lobe(n, theta) };
+            DVec3::new(channel(0), channel(1), channel(2))
         };
         lobe(self.diffuse / PI, 1.0, self.normal) + lobe(self.specular, self.shininess, self.mirrored)
     }
@@ -88,22 +83,60 @@ impl Surface {
 
 /// Jⁿ(T, θ) = ∫ F(T, γ)·max(0, cos)ⁿ dω (Hong 2006, eqs. 4.13 and 4.14): of the radiance around a point in a medium at the
 /// optical depth T from a point light, `I·σ_s/d·F`, with a lobe whose axis is θ (radians) from the way to the light.
-///
-/// `F·sin γ` is [`glow`] and of no other angle, so the lobe is first summed around the way to the light.
 pub fn convolution(kind: &Phase, n: f64, depth: f64, theta: f64) -> f64 {
-    over_lobe(n, theta, |gamma| glow(kind, depth, gamma))
+    Field::of_point(kind, depth).over_lobe(n, theta)
 }
 
 /// Sⁿ(θ) = ∫ p·max(0, cos)ⁿ dω: the same of a directional light of irradiance E, around which the radiance is albedo·p·E.
 pub fn sun_convolution(kind: &Phase, n: f64, theta: f64) -> f64 {
-    over_lobe(n, theta, |gamma| phase(kind, (gamma / 2.0).sin().powi(2)) * gamma.sin())
+    Field::of_sun(kind).over_lobe(n, theta)
 }
 
-fn over_lobe(n: f64, theta: f64, around: impl Fn(f64) -> f64) -> f64 {
-    let reach = reach(n);
-    let integrand = |gamma: f64| around(gamma) * azimuthal_sum(n, theta, gamma);
-    let part = |a: f64, b: f64| if b > a { integrate(integrand, a, b, 1e-8) } else { 0.0 };
-    part((theta - reach).max(0.0), theta) + part(theta, (theta + reach).min(PI))
+/// What the medium scatters to a point from all around, as a function of the angle γ to the light alone.
+///
+/// Right to six digits for lobes of n up to 10⁴.
+pub struct Field {
+    /// γ, and F·sin γ times the width that the node stands for.
+    nodes: Vec<(f64, f64)>,
+}
+
+impl Field {
+    /// Around a point at this optical depth from a point light.
+    pub fn of_point(kind: &Phase, depth: f64) -> Self {
+        Self::new(|gamma| glow(kind, depth, gamma))
+    }
+
+    /// Of a directional light.
+    pub fn of_sun(kind: &Phase) -> Self {
+        Self::new(|gamma| phase(kind, (gamma / 2.0).sin().powi(2)) * gamma.sin())
+    }
+
+    /// Panels that grow from the light outward as far as the sharpest lobe bears.
+    fn new(around: impl Fn(f64) -> f64) -> Self {
+        let mut edges = vec![0.0, 1e-6];
+        while let Some(last) = edges.last().copied().filter(|last| *last < PI) {
+            edges.push((2.0 * last).min(last + 0.02).min(PI));
+        }
+        let rule = gauss_legendre(8);
+        let node = |[a, b]: [f64; 2], (x, weight): (f64, f64)| {
+            let gamma = a + (b - a) * 0.5 * (x + 1.0);
+            (gamma, 0.5 * (b - a) * weight * around(gamma))
+        };
+        let panels = edges.array_windows::<2>();
+        Self { nodes: panels.flat_map(|panel| rule.iter().map(|at| node(*panel, *at)).collect::<Vec<_>>()).collect() }
+    }
+
+    /// ∫ F·max(0, cos)ⁿ dω about an axis at the angle θ from the way to the light: first around that way.
+    pub fn over_lobe(&self, n: f64, theta: f64) -> f64 {
+        let near = |gamma: f64| (gamma - theta).abs() < reach(n);
+        let lit = self.nodes.iter().filter(|(gamma, _)| near(*gamma));
+        lit.map(|(gamma, glow)| glow * azimuthal_sum(n, theta, *gamma)).sum()
+    }
+
+    /// ∫ F dω: the light that comes from all around.
+    pub fn all_around(&self) -> f64 {
+        2.0 * PI * self.nodes.iter().map(|(_, glow)| glow).sum::<f64>()
+    }
 }
 
 /// Where cosⁿ is below 1e-14, an angle from its axis; at most a right angle.
@@ -116,16 +149,18 @@ fn reach(n: f64) -> f64 {
 pub fn glow(kind: &Phase, depth: f64, gamma: f64) -> f64 {
     let start = (gamma / 2.0).tan();
     let rate = depth * gamma.sin();
-    // in ln(v - start), in which all scales are alike
-    let integrand = |s: f64| {
-        let x = s.exp();
+    let at = |x: f64| {
         let v = start + x;
         let w = if v > 1e8 { 1.0 } else { v * v / (1.0 + v * v) };
         phase(kind, w) * (-rate * x).exp() * 2.0 * x / (1.0 + v * v)
     };
-    let last = if rate > 0.0 { (60.0 / rate).ln().min(25.0) } else { 25.0 };
-    (-depth).exp() * integrate(integrand, (last - 30.0).min(-25.0), last, 1e-10)
+    // in ln(v - start), in which all scales are alike, equal steps reach any precision
+    let sum: f64 = (-220..=220).map(|i| at((STEP * f64::from(i)).exp())).sum();
+    (-depth).exp() * STEP * sum
 }
+
+/// Of ln(v - start): what lies between two values or beyond the last ones is less than 1e-9.
+const STEP: f64 = 0.1;
 
 /// ∫ max(0, cos γ·cos θ + sin γ·sin θ·cos φ)ⁿ dφ around the way to the light.
 fn azimuthal_sum(n: f64, theta: f64, gamma: f64) -> f64 {
@@ -142,7 +177,7 @@ fn azimuthal_sum(n: f64, theta: f64, gamma: f64) -> f64 {
 }
 
 thread_local! {
-    static RULE: Vec<(f64, f64)> = gauss_legendre(64);
+    static RULE: Vec<(f64, f64)> = gauss_legendre(48);
 }
 
 /// Any light, direction by direction: the airlight of `airlight.rs` in each, in polar coordinates about the way to the

@@ -10,12 +10,20 @@
 //               and 4.14): radiance is I sigma_s/d (rho/pi J^1 + k_s J^n). n = 1 is Lambert's
 //   S^n(theta)  the same of a directional light, whose irradiance E is the same everywhere: E albedo (rho/pi S^1 + k_s S^n)
 //
+//   psi         angle at a spot between its axis and the way to the surface; N its exponent
+//   A(T, psi)   what a spot scatters to a point from all around, of what a point light of its intensity on the axis would
+//
 // The thesis leaves out the albedo and 1/pi, and has J for theta up to 90 degrees only, where back faces are not yet dark.
 //
-// A table has a layer for each n, Lambert's first. Its texels are cells between angles (x) and depths (y); the last row is
+// A spot's light is taken as a point light's times A: right in the mean over all normals, and in the colour; how a narrow
+// beam bends the light to its side is left out. By the symmetry of light's path (from the light and from the surface,
+// directions at the same angle to the way between them are alike) A is a convolution of the same field:
+// A = J of the lobe that the spot sends, at psi, over that of the whole sphere.
+//
+// A table has a layer for each lobe, Lambert's first. Its texels are cells between angles (x) and depths (y); the last row is
 // S. A texel holds the corners of its cell, so that one load is enough:
 //   (T0, theta0), (T0, theta1), (T1, theta0), (T1, theta1)
-// of e^T J (n+1)/(2 pi) and of S (n+1)/(2 pi), which change little.
+// of e^T J (n+1)/(2 pi) and of S (n+1)/(2 pi), which change little; of a spot's lobe, of A.
 
 #import scene
 #import medium
@@ -39,8 +47,8 @@ fn depth_at(coordinate: f32, cells: f32) -> f32 {
 }
 
 // Angles in sin(theta/2): spaced evenly within the lobe, whose width this is, and in equal ratios outside.
-fn lobe_width(n: f32) -> f32 {
-    return inverseSqrt(max(n, 1.0));
+fn lobe_width(n: f32, cos_cutoff: f32) -> f32 {
+    return max(min(inverseSqrt(max(n, 1.0)), sqrt(0.5 - 0.5 * cos_cutoff)), 1e-3);
 }
 
 // The coordinate of an angle is scale log2(1 + sin(theta/2) factor).
@@ -49,8 +57,8 @@ struct AngleAxis {
     scale: f32,
 }
 
-fn angle_axis(n: f32, cells: f32) -> AngleAxis {
-    let factor = 1.0 / lobe_width(n);
+fn angle_axis(width: f32, cells: f32) -> AngleAxis {
+    let factor = 1.0 / width;
     return AngleAxis(factor, cells / log2(1.0 + factor));
 }
 
@@ -59,16 +67,23 @@ fn sine_of_half_at(axis: AngleAxis, coordinate: f32) -> f32 {
     return min((exp2(coordinate / axis.scale) - 1.0) / axis.factor, 1.0);
 }
 
-// A lobe of a surface and its layer of the table.
+// A lobe and its layer of the table.
 struct Lookup {
     axis: vec3<f32>,            // unit vector
     layer: u32,
     angles: AngleAxis,
-    factor: f32,                // 2 pi/(n+1), which the table is divided by
+    factor: f32,                // of what the table holds
 }
 
+// Of a BRDF's lobe.
 fn lookup_of(axis: vec3<f32>, layer: u32, n: f32, table: texture_2d_array<f32>) -> Lookup {
-    return Lookup(axis, layer, angle_axis(n, f32(textureDimensions(table).x)), 2.0 * PI / (n + 1.0));
+    return Lookup(axis, layer, angle_axis(lobe_width(n, -1.0), f32(textureDimensions(table).x)), 2.0 * PI / (n + 1.0));
+}
+
+// Of A.
+fn lookup_of_spot(light: Light, table: texture_2d_array<f32>) -> Lookup {
+    let width = lobe_width(light.exponent, light.cos_cutoff);
+    return Lookup(-light.direction, light.lobe, angle_axis(width, f32(textureDimensions(table).x)), 1.0);
 }
 
 // Rows of the table for the three channels, and how far between their depths.
@@ -89,7 +104,7 @@ fn cell_value(corners: vec4<f32>, across: f32, down: f32) -> f32 {
     return mix(rows.x, rows.y, down);
 }
 
-// e^T J, or S, of the three channels.
+// e^T J, or S, or A, of the three channels.
 fn convolution(lookup: Lookup, to_light: vec3<f32>, rows: Rows, table: texture_2d_array<f32>) -> vec3<f32> {
     // half the distance of unit vectors is the sine of half their angle
     let sine_of_half = min(0.5 * length(lookup.axis - to_light), 1.0);
@@ -125,9 +140,9 @@ fn direct_share(surface: Surface, to_light: vec3<f32>) -> vec3<f32> {
 // Radiance that leaves the surface toward the eye, W/(sr m^2), not attenuated on that way.
 fn reflected(light: Light, medium: Medium, surface: Surface, direct: bool, scattered: bool, table: texture_2d_array<f32>) -> vec3<f32> {
     let incident = incident_light(light, surface.position);
-    var share = vec3<f32>(0.0);
+    var sum = vec3<f32>(0.0);
     if direct {
-        share = direct_share(surface, incident.to_light);
+        sum = direct_share(surface, incident.to_light) * incident.irradiance;
     }
     if scattered {
         let is_sun = light.kind == DIRECTIONAL;
@@ -136,7 +151,9 @@ fn reflected(light: Light, medium: Medium, surface: Surface, direct: bool, scatt
         let phong = convolution(surface.phong, incident.to_light, rows, table);
         // I sigma_s/d as a part of I/d^2; without a way, E albedo as a part of E
         let scattering = select(medium.scattering * incident.way, medium.scattering / max(medium.extinction, vec3<f32>(1e-30)), is_sun);
-        share += scattering * (surface.rho / PI * lambert + surface.k_s * phong);
+        let of_spot = convolution(lookup_of_spot(light, table), incident.to_light, rows, table);
+        let all_around = select(vec3<f32>(1.0), of_spot, light.kind == SPOT);
+        sum += scattering * (surface.rho / PI * lambert + surface.k_s * phong) * all_around * incident.on_axis;
     }
-    return share * incident.irradiance * transmittance(medium, incident.way);
+    return sum * transmittance(medium, incident.way);
 }

@@ -1,14 +1,15 @@
 // The light that the medium scatters to a surface, summed over each lobe that a surface of the scene has: the table that
-// shaders/reflection.wgsl reads. Lambert's first, then one layer for each shininess.
+// shaders/reflection.wgsl reads. Lambert's first, then one layer for each cosine lobe, of a Phong surface or of a spot.
 //
-//   J^n, T, theta, w, n   see shaders/reflection.wgsl
-//   gamma, a, glow, F_l   see zonal.wgsl
+//   J^n, A, T, theta, n   see shaders/reflection.wgsl
+//   gamma, glow, F_l      see zonal.wgsl
 //   K_l       2 pi * integral of max(0, cos)^n P_l dcos: a lobe's zonal coefficients
 //   phi       azimuth about the way to the light, from the axis of the lobe
 //
 // Broad lobes by zonal coefficients: J = sum of (2l+1)/(4 pi) F_l K_l P_l(cos(theta)). Sharp ones, which would need about
-// 3 sqrt(n) of them, by the integral itself: J = integral of glow(gamma) K(gamma, theta) dgamma, where
-// K = integral of max(0, cos(gamma - theta) - 2 sin(gamma) sin(theta) sin^2(phi/2))^n dphi.
+// 3 sqrt(n) of them, and those of spots, which end at an edge, by the integral itself: J = integral of
+// glow(gamma) K(gamma, theta) dgamma, where K = integral of (1 - x)^n dphi over the phi within the cutoff,
+// x = 1 - cos(gamma - theta) + 2 sin(gamma) sin(theta) sin^2(phi/2).
 #import scene
 #import reflection
 
@@ -19,7 +20,7 @@ const ZONAL_MOST: f32 = 30.0;
 const FIRST_NODE: f32 = -12.5;
 const NODE_STEP: f32 = 0.075;
 
-var<storage, read> shininesses: Shininesses;
+var<storage, read> cosine_lobes: CosineLobes;
 var glow: texture_2d<f32>;
 var coefficients: texture_2d<f32>;
 var table: texture_storage_2d_array<rgba32float, write>;
@@ -46,26 +47,31 @@ fn zonal_sum(n: f32, theta: f32, rows: vec2<u32>) -> vec2<f32> {
 fn power_of_rest(x: f32, n: f32) -> f32 {
     let series = -x * (1.0 + x * (0.5 + x * (1.0 / 3.0 + x * 0.25)));
     let exponent = select(log(max(1.0 - x, 1e-30)), series, x < 0.02);
-    return select(0.0, exp(n * exponent), x < 1.0);
+    // where n = 0 a lobe may be wider than a hemisphere
+    return select(0.0, exp(n * exponent), x < 1.0 || n == 0.0);
 }
 
 // Half the nodes around: the other half is alike.
 const AZIMUTHS: u32 = 16u;
 
 // K. In phi' with tan(phi/2) = width tan(phi'/2) no lobe is narrow.
-fn azimuthal_sum(n: f32, theta: f32, gamma: f32) -> f32 {
+fn azimuthal_sum(lobe: CosineLobe, theta: f32, gamma: f32) -> f32 {
+    let n = lobe.exponent;
     let half_turn = sin(0.5 * (gamma - theta));
     let nearest = 2.0 * half_turn * half_turn;
     let swing = 2.0 * max(sin(gamma) * sin(theta), 0.0);
     let width2 = 1.0 / (1.0 + 0.5 * n * swing / max(1.0 - nearest, 0.05));
     let width = sqrt(width2);
+    // sin^2(phi/2) at the cutoff, and phi'/2 there
+    let edge = clamp((1.0 - lobe.cos_cutoff - nearest) / max(swing, 1e-20), 0.0, 1.0);
+    let end = atan2(sqrt(edge), width * sqrt(1.0 - edge));
     var sum = 0.0;
     for (var i = 0u; i < AZIMUTHS; i++) {
-        let t = tan(0.5 * PI / f32(AZIMUTHS) * (f32(i) + 0.5));
+        let t = tan(end / f32(AZIMUTHS) * (f32(i) + 0.5));
         let q = 1.0 / (1.0 + width2 * t * t);
         sum += power_of_rest(nearest + swing * width2 * t * t * q, n) * q * (1.0 + t * t);
     }
-    return 2.0 * PI * width / f32(AZIMUTHS) * sum;
+    return 4.0 * end * width / f32(AZIMUTHS) * sum;
 }
 
 // The glow of two rows between nodes, cubic.
@@ -89,9 +95,10 @@ const ACROSS: i32 = 40;
 const ACROSS_STEP: f32 = 0.16;
 const REACH_EXPONENT: f32 = 18.0;
 
-fn sharp_lobe(n: f32, theta: f32, rows: vec2<u32>) -> vec2<f32> {
-    // where cos^n is e^-18
-    let reach = 2.0 * asin(sqrt(0.5 * (1.0 - exp(-REACH_EXPONENT / n))));
+fn sharp_lobe(lobe: CosineLobe, theta: f32, rows: vec2<u32>) -> vec2<f32> {
+    // where cos^n is e^-18, or the cutoff
+    let least = max(exp(-REACH_EXPONENT / max(lobe.exponent, 1e-3)), lobe.cos_cutoff);
+    let reach = 2.0 * asin(sqrt(0.5 * (1.0 - select(least, lobe.cos_cutoff, lobe.exponent == 0.0))));
     let low = max(theta - reach, 0.0);
     let width = min(theta + reach, PI) - low;
     var sum = vec2<f32>(0.0);
@@ -100,7 +107,7 @@ fn sharp_lobe(n: f32, theta: f32, rows: vec2<u32>) -> vec2<f32> {
         // the share of the width on this side of the node, and its change with s
         let share = select(1.0 / (1.0 + e), e / (1.0 + e), i < 0);
         let gamma = clamp(low + width * share, 1e-7, PI - 1e-6);
-        sum += glow_between(gamma, rows) * (azimuthal_sum(n, theta, gamma) * 2.0 * e / ((1.0 + e) * (1.0 + e)));
+        sum += glow_between(gamma, rows) * (azimuthal_sum(lobe, theta, gamma) * 2.0 * e / ((1.0 + e) * (1.0 + e)));
     }
     return sum * width * ACROSS_STEP;
 }
@@ -114,22 +121,27 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let depths = size.y - 1u;
     // the last row is the directional light's, which stands behind the last depth
     let rows = select(vec2<u32>(id.y, id.y + 1u), vec2<u32>(id.y + 1u), id.y == depths);
-    let used = id.z <= shininesses.count;
-    var n = 1.0;
+    let used = id.z <= cosine_lobes.count;
+    var lobe = CosineLobe(1.0, 0.0, 0u, 0u);
     if id.z > 0u && used {
-        n = shininesses.items[id.z - 1u];
+        lobe = cosine_lobes.items[id.z - 1u];
     }
-    let axis = angle_axis(n, f32(size.x));
+    let n = lobe.exponent;
+    let is_spot = lobe.is_spot != 0u;
+    let axis = angle_axis(lobe_width(n, select(-1.0, lobe.cos_cutoff, is_spot)), f32(size.x));
     let theta0 = 2.0 * asin(sine_of_half_at(axis, f32(id.x)));
     let theta1 = 2.0 * asin(sine_of_half_at(axis, f32(id.x + 1u)));
     var corners = vec4<f32>(0.0);
-    if used && n <= ZONAL_MOST {
+    let zonal = n <= ZONAL_MOST && !is_spot;
+    if used && zonal {
         corners = vec4<f32>(zonal_sum(n, theta0, rows), zonal_sum(n, theta1, rows));
     }
-    if used && n > ZONAL_MOST {
-        corners = vec4<f32>(sharp_lobe(n, theta0, rows), sharp_lobe(n, theta1, rows));
+    if used && !zonal {
+        corners = vec4<f32>(sharp_lobe(lobe, theta0, rows), sharp_lobe(lobe, theta1, rows));
     }
     // what a series leaves of a value near 0 may be below it
-    let scaled = max(corners.xzyw * ((n + 1.0) / (2.0 * PI)), vec4<f32>(0.0));
+    let whole = vec2<f32>(textureLoad(coefficients, vec2<u32>(0u, rows.x), 0).x, textureLoad(coefficients, vec2<u32>(0u, rows.y), 0).x);
+    let unit = select(vec2<f32>(2.0 * PI / (n + 1.0)), whole, is_spot);
+    let scaled = max(corners.xzyw / unit.xxyy, vec4<f32>(0.0));
     textureStore(table, id.xy, id.z, scaled);
 }

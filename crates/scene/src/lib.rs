@@ -17,6 +17,7 @@
 pub mod adjacency;
 pub mod animate;
 pub mod codes;
+mod cosine_lobes;
 mod decode;
 mod encode;
 mod frame;
@@ -28,14 +29,13 @@ mod overrides;
 mod primitives;
 mod resolve;
 mod scene;
-mod shininesses;
 
 pub use self::codes::CODES;
+pub use self::cosine_lobes::COSINE_LOBES_MAX;
 pub use self::encode::{Encoded, SCENE_DATA};
 pub use self::frame::{Bounds, Frame, FrameLight, View};
 pub use self::mesh::Mesh;
 pub use self::overrides::{Override, Overrides};
 pub use self::primitives::Primitive;
 pub use self::scene::Scene;
-pub use self::shininesses::SHININESSES_MAX;
 pub use tyndall_shaders::scene::Phase;
