@@ -177,7 +177,7 @@ fn azimuthal_sum(n: f64, theta: f64, gamma: f64) -> f64 {
 }
 
 thread_local! {
-    static RULE: Vec<(f64, f64)> = gauss_legendre(48);
+    static RULE: Vec<(f64, f64)> = gauss_legendre(40);
 }
 
 /// Any light, direction by direction: the airlight of `airlight.rs` in each, in polar coordinates about the way to the
@@ -188,7 +188,8 @@ pub fn scattered_from_all_around(light: &Light, medium: &Medium, surface: &Surfa
         if factor == DVec3::ZERO {
             return DVec3::ZERO;
         }
-        let around = |direction| airlight(light, medium, &Ray { origin: surface.position, direction }, 0.0, f64::INFINITY);
+        let around =
+            |direction| airlight(light, medium, &Ray { origin: surface.position, direction }, 0.0, f64::INFINITY);
         factor * lobe_of_directions(n, axis, to_light, around)
     };
     lobe(surface.diffuse / PI, 1.0, surface.normal) + lobe(surface.specular, surface.shininess, surface.mirrored)
