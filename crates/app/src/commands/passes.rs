@@ -2,7 +2,8 @@
 
 use serde_json::{Value, json};
 use tyndall_graph::descriptor::{
-    Axis, Extent, ParamDescriptor, ParamValue, PortDescriptor, PortKind, Preset, Role, SizeRule,
+    Axis, Class, Dimension, Disabled, Extent, ParamDescriptor, ParamValue, PortDescriptor, PortKind, Preset, Role,
+    SizeRule,
 };
 use tyndall_plugin::{Origin, RegistryPass};
 
@@ -95,7 +96,7 @@ fn port_text(port: &PortDescriptor) -> String {
     let mut facts = vec![kind(&port.kind)];
     facts.extend((!port.unit.is_empty()).then(|| port.unit.clone()));
     facts.extend(port.size.as_ref().map(size));
-    facts.extend(role(&port.role));
+    facts.extend(role(port));
     facts.extend(port.unordered.then(|| "unordered".to_owned()));
     format!("  {}: {}\n{}", port.name, facts.join(", "), wrapped(&port.about, "      "))
 }
@@ -120,9 +121,9 @@ fn kind(kind: &PortKind) -> String {
     match kind {
         PortKind::Texture { dimension, class, format, filtered } => {
             let dimension = match dimension {
-                tyndall_graph::descriptor::Dimension::D2 => "2D texture",
-                tyndall_graph::descriptor::Dimension::D2Array => "2D texture with layers",
-                tyndall_graph::descriptor::Dimension::D3 => "3D texture",
+                Dimension::D2 => "2D texture",
+                Dimension::D2Array => "2D texture with layers",
+                Dimension::D3 => "3D texture",
             };
             let format = format.map(|format| format!(", {format}")).unwrap_or_default();
             format!("{dimension} of {}{format}{}", class_name(*class), if *filtered { ", filtered" } else { "" })
@@ -132,18 +133,23 @@ fn kind(kind: &PortKind) -> String {
     }
 }
 
-fn class_name(class: tyndall_graph::descriptor::Class) -> String {
+fn class_name(class: Class) -> String {
     format!("{class:?}").to_lowercase()
 }
 
-fn role(role: &Role) -> Option<String> {
-    match role {
+fn role(port: &PortDescriptor) -> Option<String> {
+    // a constant has four channels; a scalar port shows the one that it has
+    let constant = |value: &[f32; 4]| match port.kind {
+        PortKind::Texture { class: Class::Scalar, .. } => value[0].to_string(),
+        _ => format!("({})", value.map(|channel| channel.to_string()).join(", ")),
+    };
+    match &port.role {
         Role::Input => None,
-        Role::Optional(value) => Some(format!("optional, else {value:?}")),
-        Role::History(first) => Some(format!("what was there in the frame before, at first {first:?}")),
+        Role::Optional(value) => Some(format!("optional, else {}", constant(value))),
+        Role::History(first) => Some(format!("what was there in the frame before, at first {}", constant(first))),
         Role::Output { disabled } => Some(match disabled {
-            tyndall_graph::descriptor::Disabled::Input(port) => format!("off: {port} flows on"),
-            tyndall_graph::descriptor::Disabled::Constant(value) => format!("off: {value:?}"),
+            Disabled::Input(port) => format!("off: {port} flows on"),
+            Disabled::Constant(value) => format!("off: {}", constant(value)),
         }),
         Role::InOut => Some("changed in place".to_owned()),
     }
@@ -243,7 +249,7 @@ fn port_json(port: &PortDescriptor) -> Value {
         "filtered": filtered,
         "size": port.size.as_ref().map(size),
         "required": port.role == Role::Input,
-        "role": role(&port.role),
+        "role": role(port),
         "unordered": port.unordered,
     })
 }
