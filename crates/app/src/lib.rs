@@ -8,7 +8,6 @@ mod failure;
 mod loading;
 mod pictures;
 mod plugins;
-mod running;
 mod terminal;
 
 use std::process::ExitCode;

@@ -6,12 +6,12 @@ use serde_json::{Value, json};
 use tyndall_gpu::{FrameOptions, Gpu, PipelineCache, Timing, bytes};
 use tyndall_graph::descriptor::{ParamDescriptor, ParamValue};
 use tyndall_graph::{Graph, Plan, Roots};
+use tyndall_render::Running;
 
 use crate::App;
 use crate::cli::{Arguments, Bench};
 use crate::failure::Failure;
 use crate::loading::{self, Wanted};
-use crate::running::Running;
 use crate::{plugins, terminal};
 
 /// Frames in which each pass is timed by itself, at most: what is wanted is a median.
