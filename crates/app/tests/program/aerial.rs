@@ -207,8 +207,8 @@ fn a_way_in_two_parts_gives_the_same() {
         *value += near.transmittance.data[index] * far.airlight.data[index];
     }
     assert_near(&both.airlight, &sum, 1e-5);
-    let mut product = near.transmittance.clone();
-    product.data.iter_mut().zip(&far.transmittance.data).for_each(|(a, b)| *a *= b);
+    let product = near.transmittance.data.iter().zip(&far.transmittance.data).map(|(a, b)| a * b).collect();
+    let product = Image { data: product, ..near.transmittance };
     assert_near(&both.transmittance, &product, 1e-5);
     // L = L_in + F_ex L_0
     let mut whole = both.airlight.clone();
