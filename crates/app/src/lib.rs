@@ -32,6 +32,7 @@ impl App {
             tyndall_core::plugin as fn() -> Plugin,
             tyndall_airlight::plugin,
             tyndall_surface_radiance::plugin,
+            tyndall_froxel::plugin,
             tyndall_march::plugin,
         ];
         Self { plugins, started: Instant::now() }
