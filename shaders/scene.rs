@@ -16,9 +16,10 @@ pub struct Camera {
 }
 
 /// A phase function: how a scattering event spreads light over directions.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Phase {
     /// The same everywhere, 1/(4π).
+    #[default]
     Isotropic,
     /// Henyey and Greenstein 1941.
     HenyeyGreenstein {
@@ -57,6 +58,13 @@ pub struct Medium {
     pub albedo: DVec3,
     /// Phase function.
     pub phase: Phase,
+}
+
+impl Medium {
+    /// Scattering coefficient σ_s = albedo·σ_t of each channel, 1/m.
+    pub fn scattering(&self) -> DVec3 {
+        self.albedo * self.extinction
+    }
 }
 
 /// A light.

@@ -6,8 +6,8 @@ use tyndall_document::Source;
 use tyndall_plugin::wgpu;
 use tyndall_scene::layout;
 use tyndall_shader::{Library, link};
-use tyndall_shaders::scene::{Light, Medium, Phase};
-use tyndall_shaders::{MODULES, phase};
+use tyndall_shaders::MODULES;
+use tyndall_shaders::scene::Light;
 
 use crate::cases::Case;
 
@@ -21,6 +21,7 @@ override nodes: u32 = 8;
 struct Case {
     light: Light,
     medium: Medium,
+    phase: Phase,
     origin: vec3<f32>,
     way: f32,
     direction: vec3<f32>,
@@ -39,7 +40,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var sum = vec3<f32>(0.0);
     var cursor = Cursor(0u, 0u, 0.0);
     loop {
-        let piece = airlight(cursor, case_.light, case_.medium, ray, case_.way, nodes);
+        let piece = airlight(cursor, case_.light, case_.medium, case_.phase, ray, case_.way, nodes);
         sum += piece.radiance;
         cursor = piece.next;
         if cursor.light >= 1u { break; }
@@ -130,33 +131,10 @@ impl Probe {
 fn bytes(case: &Case) -> Vec<u8> {
     let ray = [case.ray.origin.as_vec3().extend(case.way as f32), case.ray.direction.as_vec3().extend(0.0)];
     let mut bytes = bytemuck::bytes_of(&light(&case.light)).to_vec();
-    bytes.extend_from_slice(bytemuck::bytes_of(&medium(&case.medium)));
+    bytes.extend_from_slice(bytemuck::bytes_of(&layout::Medium::from(&case.medium)));
+    bytes.extend_from_slice(bytemuck::bytes_of(&layout::Phase::from(&case.medium.phase)));
     bytes.extend_from_slice(bytemuck::cast_slice(&ray.map(|vector| vector.to_array())));
     bytes
-}
-
-fn medium(medium: &Medium) -> layout::Medium {
-    let (kind, g1, g2, weight) = match medium.phase {
-        Phase::Isotropic => (0, 0.0, 0.0, 0.0),
-        Phase::HenyeyGreenstein { g } => (1, g, 0.0, 0.0),
-        Phase::DoubleHenyeyGreenstein { g1, g2, f } => (2, g1, g2, f),
-        Phase::Schlick { k } => (3, k, 0.0, 0.0),
-        Phase::Rayleigh => (4, 0.0, 0.0, 0.0),
-        Phase::CornetteShanks { g } => (5, g, 0.0, 0.0),
-    };
-    let [rho1, rho2] = phase::lobe_widths(&medium.phase).map(|rho| rho as f32);
-    let scattering = (medium.albedo * medium.extinction).as_vec3().to_array();
-    let extinction = medium.extinction.as_vec3().to_array();
-    layout::Medium {
-        extinction,
-        phase: kind,
-        scattering,
-        g1: g1 as f32,
-        g2: g2 as f32,
-        weight: weight as f32,
-        rho1,
-        rho2,
-    }
 }
 
 fn light(light: &Light) -> layout::Light {
