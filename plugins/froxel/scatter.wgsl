@@ -29,6 +29,7 @@ struct Params {
 var<uniform> params: Params;
 var<uniform> camera: Camera;
 var<uniform> medium: Medium;
+var<uniform> phase: Phase;
 var<storage, read> lights: Lights;
 var scattered: texture_storage_3d<rgba32float, write>;
 var<storage, read_write> grid: Grid;
@@ -38,7 +39,7 @@ var<storage, read_write> grid: Grid;
 const STEPS = vec3<f32>(0.8191725, 0.6710436, 0.5497005);
 
 // S of one light without sigma_s; `least` is the least r^2, m^2.
-fn scattered_by(light: Light, phase: Phase, position: vec3<f32>, direction: vec3<f32>, least: f32) -> vec3<f32> {
+fn scattered_by(light: Light, position: vec3<f32>, direction: vec3<f32>, least: f32) -> vec3<f32> {
     let incident = incident_light(light, position);
     let half_difference = 0.5 * (incident.to_light - direction);
     let w = dot(half_difference, half_difference);
@@ -54,12 +55,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let shared_grid = Grid(params.near, max(params.far, 1.001 * params.near), 0.0, 0.0);
     let start = distance_of_border(shared_grid, f32(id.z), size.z);
     let end = distance_of_border(shared_grid, f32(id.z + 1u), size.z);
-    let phase = phase_of(medium);
     let column = vec2<f32>(size.xy);
     // of the rectangle that the view cuts out at distance 1, for one column: the columns at its corners are thinner
     let solid_angle = 4.0 * length(camera.right) * length(camera.up) / (column.x * column.y);
     let volume = solid_angle * (end * end * end - start * start * start) / (3.0 * f32(samples));
-    let a = pow(volume * (3.0 / FOUR_PI), 1.0 / 3.0);
+    // 3/(4 pi)
+    let a = pow(volume * 0.238732415, 1.0 / 3.0);
     var sum = vec3<f32>(0.0);
     for (var i = 0u; i < samples; i++) {
         let offset = fract(0.5 + f32(i) * STEPS);
@@ -68,7 +69,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         // a list without lights holds one of intensity 0; why the test stands at the end: see shaders/airlight.wgsl
         var light = 0u;
         loop {
-            sum += scattered_by(lights.items[light], phase, position, ray.direction, a * a / 3.0);
+            sum += scattered_by(lights.items[light], position, ray.direction, a * a / 3.0);
             light++;
             if light >= lights.count { break; }
         }

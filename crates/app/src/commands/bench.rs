@@ -113,7 +113,8 @@ fn time_passes(running: &mut Running<'_>, verb: &Bench, runs: &[u64]) -> Result<
     Ok(figures)
 }
 
-fn median(values: &mut [f64]) -> Option<f64> {
+/// The middle value, or the mean of the two in the middle; `None` of none. Sorts them.
+pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     let middle = values.len() / 2;
     match values.len() {
