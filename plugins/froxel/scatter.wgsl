@@ -4,7 +4,7 @@
 //   E    irradiance at the point, I/r^2 of point and spot lights, W/m^2
 //   r    way of the light through the medium, m; 0 of a directional light
 //   w    sin^2 of half the scattering angle
-//   V    volume of a froxel, or of its part that a sample stands for, m^3
+//   V    volume of a froxel, or of its part that a point stands for, m^3
 //   a    radius of a ball of that volume, m
 //
 // The light-side extinction is exact, which engines leave out. A point cannot stand for a froxel that a lamp is in: over a
@@ -16,7 +16,7 @@
 #import lights
 #import "grid.wgsl"
 
-override samples: u32 = 1;
+override points: u32 = 1;
 
 struct Params {
     width: u32,
@@ -33,10 +33,6 @@ var<uniform> phase: Phase;
 var<storage, read> lights: Lights;
 var scattered: texture_storage_3d<rgba32float, write>;
 var<storage, read_write> grid: Grid;
-
-// Steps of a sequence that fills a cube evenly (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences",
-// d = 3); it starts in the middle of the froxel.
-const STEPS = vec3<f32>(0.8191725, 0.6710436, 0.5497005);
 
 // S of one light without sigma_s; `least` is the least r^2, m^2.
 fn scattered_by(light: Light, position: vec3<f32>, direction: vec3<f32>, least: f32) -> vec3<f32> {
@@ -56,26 +52,32 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let start = distance_of_border(shared_grid, f32(id.z), size.z);
     let end = distance_of_border(shared_grid, f32(id.z + 1u), size.z);
     let column = vec2<f32>(size.xy);
+    let count = points * points * points;
     // of the rectangle that the view cuts out at distance 1, for one column: the columns at its corners are thinner
     let solid_angle = 4.0 * length(camera.right) * length(camera.up) / (column.x * column.y);
-    let volume = solid_angle * (end * end * end - start * start * start) / (3.0 * f32(samples));
+    let volume = solid_angle * (end * end * end - start * start * start) / (3.0 * f32(count));
     // 3/(4 pi)
     let a = pow(volume * 0.238732415, 1.0 / 3.0);
     var sum = vec3<f32>(0.0);
-    for (var i = 0u; i < samples; i++) {
-        let offset = fract(0.5 + f32(i) * STEPS);
+    // the middles of points^3 equal parts; why the test stands at the end: see shaders/airlight.wgsl
+    var i = 0u;
+    loop {
+        let part = vec3<u32>(i, i / points, i / (points * points)) % points;
+        let offset = (vec3<f32>(part) + 0.5) / f32(points);
         let ray = ray_of_point(camera, (vec2<f32>(id.xy) + offset.xy) / column);
         let position = ray.origin + mix(start, end, offset.z) * ray.direction;
-        // a list without lights holds one of intensity 0; why the test stands at the end: see shaders/airlight.wgsl
+        // a list without lights holds one of intensity 0
         var light = 0u;
         loop {
             sum += scattered_by(lights.items[light], position, ray.direction, a * a / 3.0);
             light++;
             if light >= lights.count { break; }
         }
+        i++;
+        if i >= count { break; }
     }
     if all(id < size) {
-        textureStore(scattered, id, vec4<f32>(medium.scattering * sum / f32(samples), 1.0));
+        textureStore(scattered, id, vec4<f32>(medium.scattering * sum / f32(count), 1.0));
     }
     if all(id == vec3<u32>(0u)) {
         grid = shared_grid;

@@ -145,7 +145,10 @@ fn entries(decoder: &mut Decoder<'_>, fields: &Fields<'_>, (name, what): (&str, 
         let message = format!("there are no {name} to compare");
         decoder.report(Diagnostic::error(NOTHING_TO_COMPARE, place, message).suggest(format!("add {what}")));
     }
-    found.into_iter().filter_map(|(name, name_span, node)| entry(decoder, (name, name_span), node, what, file)).collect()
+    found
+        .into_iter()
+        .filter_map(|(name, name_span, node)| entry(decoder, (name, name_span), node, what, file))
+        .collect()
 }
 
 fn entry(

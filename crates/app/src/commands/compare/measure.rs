@@ -70,8 +70,7 @@ impl<'p> Measured<'p> {
         let (mut frame, mut set_up) = (Some(0.0), Some(0.0));
         for pass in &self.own {
             let timing = Timing::Pass(pass.position as usize);
-            let report =
-                self.running.frame(FrameOptions { frame: 0, everything: true, timing, cpu_times: false })?;
+            let report = self.running.frame(FrameOptions { frame: 0, everything: true, timing, cpu_times: false })?;
             let sum = if pass.is_set_up { &mut set_up } else { &mut frame };
             *sum = sum.zip(report.gpu_us).map(|(sum, us)| sum + us);
         }
@@ -84,12 +83,7 @@ impl<'p> Measured<'p> {
     pub fn cost(&mut self) -> Cost {
         let plan = self.running.executor.plan();
         let (set_up_bytes, frame_bytes) = bytes(plan, &self.own);
-        Cost {
-            frame_us: median(&mut self.frame_us),
-            set_up_us: median(&mut self.set_up_us),
-            frame_bytes,
-            set_up_bytes,
-        }
+        Cost { frame_us: median(&mut self.frame_us), set_up_us: median(&mut self.set_up_us), frame_bytes, set_up_bytes }
     }
 }
 

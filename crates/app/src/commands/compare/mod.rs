@@ -10,6 +10,8 @@ mod page;
 mod plot;
 mod prepare;
 mod table;
+#[cfg(test)]
+mod tests;
 mod truth;
 mod twin;
 

@@ -107,7 +107,8 @@ fn over_all(figures: &Figures) -> String {
 }
 
 fn plots(figures: &Figures, title: &str, rows: &[Row]) -> String {
-    let plots: Vec<String> = [P99, MAX].into_iter().filter_map(|error| plot_of(figures, title, rows, error)).collect();
+    let plot = |(name, error)| plot_of(figures, &format!("{title}: {name}"), rows, (name, error));
+    let plots: Vec<String> = [P99, MAX].into_iter().filter_map(plot).collect();
     if plots.is_empty() {
         return "<p>This adapter measures no GPU times, so there is no plot of error over time.</p>\n".to_owned();
     }

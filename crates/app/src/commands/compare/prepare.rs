@@ -121,7 +121,8 @@ fn is_picture(file: &CompareFile, entry: &Entry, plan: &Plan, out: &mut Diagnost
     let (width, height) = file.size;
     let fits = matches!(resource, Resource::Texture { dimension: Dimension::D2, width: w, height: h, .. } if (w, h) == file.size);
     if !fits {
-        let message = format!("`{}` of this graph is {resource}, not a picture of {width}×{height}", file.light.output());
+        let message =
+            format!("`{}` of this graph is {resource}, not a picture of {width}×{height}", file.light.output());
         let place = file.source.place(entry.name_span);
         let mistake = Diagnostic::error(WRONG_PICTURE, place, message);
         out.push(mistake.suggest("the compared port must have the frame's size"));
@@ -148,9 +149,10 @@ fn placed(file: &CompareFile, entries: &[&Entry], found: Diagnostics) -> Diagnos
         match setting {
             Some(setting) => mistake.place = file.source.place(setting.span),
             None => {
-                let entry = entries[0];
-                let name = format!("`{}` names it", entry.name);
-                mistake = mistake.relate(file.source.place(entry.name_span), name);
+                let entry = file.source.place(entries[0].name_span);
+                if mistake.place != entry {
+                    mistake = mistake.relate(entry, format!("`{}` names it", entries[0].name));
+                }
             }
         }
         mistake

@@ -12,8 +12,8 @@ pub(super) fn legend(figures: &Figures) -> String {
     format!(
         "Relative error of {} against double precision, |found - true| / max(true, {:.0} % of the picture's mean), of every \
          channel of every pixel. GPU time of the passes that make this light, without rasterising and tone mapping: \
-         median of {rounds} rounds in turns; `once`: of passes whose result stays while camera and lights move. Memory: \
-         what these passes write, in a frame and once. {width}x{height}, {adapter}.",
+         median of {rounds} rounds in turns; \"once\": of passes whose result stays while camera and lights move, as \
+         tables do. Memory: what these passes write, in a frame and (tables) once. {width}x{height}, {adapter}.",
         figures.output,
         100.0 * FLOOR
     )
@@ -102,7 +102,7 @@ fn cells(methods: &[Method], rows: &[Row]) -> Vec<[String; 8]> {
     methods.iter().zip(rows).map(row).collect()
 }
 
-/// Two digits: percent from 0.01 % on, below that a power of ten.
+/// Two digits: percent from 0.01 % on, below that a power of ten; from ten on as a factor.
 pub(super) fn error(error: f64) -> String {
     let percent = 100.0 * error;
     match percent {
@@ -112,7 +112,8 @@ pub(super) fn error(error: f64) -> String {
         _ if percent < 0.1 => format!("{percent:.3} %"),
         _ if percent < 1.0 => format!("{percent:.2} %"),
         _ if percent < 10.0 => format!("{percent:.1} %"),
-        _ => format!("{percent:.0} %"),
+        _ if percent < 999.5 => format!("{percent:.0} %"),
+        _ => format!("{error:.0}×"),
     }
 }
 
@@ -133,8 +134,8 @@ mod tests {
 
     #[test]
     fn errors_have_two_digits() {
-        let told = [0.0, 1.234e-6, 9.87e-5, 1.5e-4, 0.00234, 0.0456, 0.789, 3.9, f64::INFINITY].map(error);
-        assert_eq!(told, ["0", "1.2e-6", "9.9e-5", "0.015 %", "0.23 %", "4.6 %", "79 %", "390 %", "∞"]);
+        let told = [0.0, 1.234e-6, 9.87e-5, 1.5e-4, 0.00234, 0.0456, 0.789, 3.9, 129.47, f64::INFINITY].map(error);
+        assert_eq!(told, ["0", "1.2e-6", "9.9e-5", "0.015 %", "0.23 %", "4.6 %", "79 %", "390 %", "129×", "∞"]);
     }
 
     #[test]

@@ -45,7 +45,13 @@ pub(super) struct Truth {
 impl Truth {
     /// Of a scene, for the depth of each pixel in metres, infinite where there is no surface. Calls `row_done` after each
     /// row. Rows are shared out among the processors.
-    pub fn new(light: Light, scene: &Twin, (width, height): (u32, u32), depth: &[f32], row_done: &(dyn Fn() + Sync)) -> Self {
+    pub fn new(
+        light: Light,
+        scene: &Twin,
+        (width, height): (u32, u32),
+        depth: &[f32],
+        row_done: &(dyn Fn() + Sync),
+    ) -> Self {
         let rows = Mutex::new(vec![Vec::new(); height as usize]);
         let next = AtomicU32::new(0);
         let work = || {
