@@ -1,0 +1,71 @@
+//! A plan with its scene on a device.
+
+use std::sync::Arc;
+
+use tyndall_gpu::{Executor, FRAMES_PER_SECOND, FrameOptions, FrameReport, Gpu, PipelineCache, SceneBuffers, memory};
+use tyndall_graph::Plan;
+use tyndall_plugin::Registry;
+use tyndall_scene::{Encoded, Scene};
+
+use crate::error::Error;
+
+/// Copies of a port that exist at a time while it is read back and written to a file.
+const READBACK_COPIES: u64 = 4;
+
+/// A plan with its scene on a device.
+pub struct Running<'a> {
+    /// What runs it.
+    pub executor: Executor,
+    scene: Option<&'a Scene>,
+    encoded: Option<Encoded>,
+    aspect: f64,
+}
+
+impl<'a> Running<'a> {
+    /// Checks that the machine can hold the plan, and makes it ready.
+    ///
+    /// # Errors
+    /// What the plan needs and the machine has not; what a pass reports.
+    pub fn new(
+        gpu: &Arc<Gpu>,
+        plan: Plan,
+        scene: Option<&'a Scene>,
+        registry: &Registry,
+        cache: &mut PipelineCache,
+    ) -> Result<Self, Error> {
+        let largest = plan.roots.iter().map(|port| plan.resource(*port).bytes()).max().unwrap_or_default();
+        memory::check(gpu, &plan, READBACK_COPIES * largest)?;
+        let aspect = f64::from(plan.size.0) / f64::from(plan.size.1);
+        let executor = Executor::new(gpu, Arc::new(plan), registry, cache, SceneBuffers::default())?;
+        Ok(Self { executor, scene, encoded: None, aspect })
+    }
+
+    /// Brings the scene to the frame's time, and runs the frame.
+    ///
+    /// # Errors
+    /// A lost device, scene data over its limits, what a pass reports.
+    pub fn frame(&mut self, options: FrameOptions) -> Result<FrameReport, Error> {
+        self.bring_scene_to(f64::from(options.frame) / FRAMES_PER_SECOND)?;
+        Ok(self.executor.frame(options)?)
+    }
+
+    fn bring_scene_to(&mut self, time: f64) -> Result<(), Error> {
+        let Some(scene) = self.scene else { return Ok(()) };
+        let gpu = self.executor.gpu().clone();
+        match &mut self.encoded {
+            Some(encoded) => {
+                for name in encoded.update(scene, time, self.aspect) {
+                    self.executor.scene.set(&gpu, name, encoded.bytes(name))?;
+                }
+            }
+            None => {
+                let encoded = scene.encode(time, self.aspect);
+                for (name, bytes) in &encoded.items {
+                    self.executor.scene.set(&gpu, name, bytes)?;
+                }
+                self.encoded = Some(encoded);
+            }
+        }
+        Ok(())
+    }
+}
