@@ -32,6 +32,7 @@ impl App {
             tyndall_aerial::plugin,
             tyndall_airlight::plugin,
             tyndall_surface_radiance::plugin,
+            tyndall_froxel::plugin,
             tyndall_march::plugin,
         ];
         Self { plugins, started: Instant::now() }
