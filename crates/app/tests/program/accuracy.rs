@@ -20,22 +20,24 @@ const AIRLIGHT: [&str; 9] =
     ["glow_g0.5", "glow_g0.9", "glow_rayleigh", "lamp_behind", "spot", "ground_sphere", "box", "sphere", "box_sphere"];
 const SURFACES: [&str; 6] = ["spot", "ground_sphere", "ground_phong", "box", "sphere", "box_sphere"];
 
-fn reference(name: &str) -> PathBuf {
+/// A file of `tests/reference`.
+pub fn reference(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference").join(name)
 }
 
 /// Pixels of a reference picture.
-struct Samples(Vec<[f32; 5]>);
+pub struct Samples(Vec<[f32; 5]>);
 
 impl Samples {
-    fn of(name: &str, term: &str) -> Self {
+    /// `NAME.TERM.npy` of `tests/reference`.
+    pub fn of(name: &str, term: &str) -> Self {
         let array = read_array(&reference(&format!("{name}.{term}.npy"))).unwrap();
         assert!(array.shape[0] >= 1_400 && array.shape[1] == 5, "{name}: {:?}", array.shape);
         Self(array.data.as_chunks().0.to_vec())
     }
 
     /// Relative errors of a picture; where the reference is black the picture must be, too.
-    fn errors(&self, picture: &Image) -> Percentiles {
+    pub fn errors(&self, picture: &Image) -> Percentiles {
         assert_eq!((picture.width, picture.height), (160, 120));
         let error = |sample: &[f32; 5], channel: usize| {
             let wanted = f64::from(sample[2 + channel]);
