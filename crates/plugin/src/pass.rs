@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use tyndall_gpu::{GpuError, Program, Setup};
-use tyndall_graph::descriptor::PassDescriptor;
+use tyndall_gpu::{GpuError, PortData, Program, Setup};
+use tyndall_graph::Resource;
+use tyndall_graph::descriptor::{ParamValue, PassDescriptor};
 use tyndall_shader::Linked;
 
 use crate::folder::Folder;
@@ -15,12 +16,13 @@ pub struct Plugin {
     pub name: String,
     pub(crate) folder: Folder,
     pub(crate) passes: Vec<RustPass>,
+    pub(crate) references: Vec<(String, Reference)>,
 }
 
 impl Plugin {
     /// A plugin without passes in Rust.
     pub fn new(name: &str, folder: Folder) -> Self {
-        Self { name: name.to_owned(), folder, passes: Vec::new() }
+        Self { name: name.to_owned(), folder, passes: Vec::new(), references: Vec::new() }
     }
 
     /// Adds a pass in Rust.
@@ -29,6 +31,32 @@ impl Plugin {
         self.passes.push(pass);
         self
     }
+
+    /// Says what a pass of this plugin (`plugin.pass`) computes, on the CPU.
+    #[must_use]
+    pub fn reference(mut self, pass: &str, reference: Reference) -> Self {
+        self.references.push((pass.to_owned(), reference));
+        self
+    }
+}
+
+/// What a pass computes, in double precision on the CPU: what tests hold the pass against. Gives the numbers of each
+/// output that it knows, as a read-back gives them.
+///
+/// # Errors
+/// Why it cannot say.
+pub type Reference = fn(&ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String>;
+
+/// What a pass was given in a frame.
+pub struct ReferenceInput<'a> {
+    /// What was fed, by port.
+    pub inputs: BTreeMap<&'a str, &'a PortData>,
+    /// What each port is, inputs and outputs.
+    pub resources: BTreeMap<&'a str, Resource>,
+    /// Values of the parameters, by name.
+    pub params: BTreeMap<&'a str, ParamValue>,
+    /// The bytes of scene data by name, as the shader reads them; empty for an unknown name.
+    pub scene: &'a dyn Fn(&str) -> &'a [u8],
 }
 
 /// Makes a pass ready for a plan.

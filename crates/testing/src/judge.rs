@@ -1,0 +1,193 @@
+//! What was rendered, held against everything that a test says, and whose fault it is where that does not hold.
+
+use std::collections::BTreeMap;
+
+use tyndall_graph::descriptor::ParamValue;
+use tyndall_graph::{ParamSetting, Plan};
+use tyndall_image::Image;
+use tyndall_plugin::ReferenceInput;
+
+use crate::adapter::AdapterClass;
+use crate::file::{Property, Tapped};
+use crate::golden;
+use crate::metric::Judgement;
+use crate::options::Options;
+use crate::outcome::{Check, GOLDEN, Outcome, PortOutcome, State};
+use crate::picture::Picture;
+use crate::property;
+use crate::run::{Ready, find};
+use crate::session::{Rendered, encode};
+
+/// Holds ports against what a test says of them.
+pub(crate) struct Judge<'a> {
+    pub ready: &'a Ready,
+    pub options: &'a Options,
+    pub adapter: AdapterClass,
+}
+
+impl Judge<'_> {
+    /// Every tapped port of a frame, in the order in which the passes run.
+    pub fn frame(&self, rendered: &Rendered) -> Vec<PortOutcome> {
+        self.ready.tapped.iter().map(|tapped| self.port(tapped, rendered)).collect()
+    }
+
+    /// One port of a frame.
+    pub fn port(&self, tapped: &Tapped, rendered: &Rendered) -> PortOutcome {
+        let graph = &self.ready.loaded.graph;
+        let pass = graph.pass(tapped.port.pass);
+        let mut outcome = PortOutcome {
+            name: tapped.name.clone(),
+            pass: pass.name.clone(),
+            kind: pass.descriptor().name.clone(),
+            frame: rendered.frame,
+            key: self.ready.key(&tapped.name, rendered.frame),
+            checks: Vec::new(),
+            state: State::Passed,
+            stale: Vec::new(),
+            actual: rendered.picture(&self.ready.plan, tapped.port),
+            expected: None,
+        };
+        let Some(actual) = outcome.actual.clone() else {
+            outcome.checks.push(Check::new("rendered", Judgement::failed("it was not rendered".to_owned())));
+            return outcome;
+        };
+        let with_goldens = !self.options.without_goldens && self.options.size.is_none();
+        if with_goldens {
+            self.golden(tapped, rendered, &actual, &mut outcome);
+            self.reference(tapped, &actual, &mut outcome);
+        }
+        for property in &tapped.properties {
+            outcome.checks.push(self.property(property, tapped, &actual, rendered));
+        }
+        outcome
+    }
+
+    fn golden(&self, tapped: &Tapped, rendered: &Rendered, actual: &Picture, outcome: &mut PortOutcome) {
+        let Some(golden) = &tapped.golden else { return };
+        let records = &self.ready.records;
+        let made_from = rendered.made_from.get(&tapped.port).copied().flatten();
+        if let Some(record) = records.get(&outcome.key) {
+            outcome.stale = record.stale(made_from.as_ref());
+        }
+        let judgement = match golden::read(&self.ready.file.goldens(), &outcome.key, records, actual) {
+            Ok(expected) => {
+                let judgement = golden.metric(self.adapter).judge(actual, &expected);
+                outcome.expected = Some(expected);
+                judgement
+            }
+            Err(missing) => Judgement::failed(missing.to_string()),
+        };
+        outcome.checks.push(Check::new(GOLDEN, judgement));
+    }
+
+    fn reference(&self, tapped: &Tapped, actual: &Picture, outcome: &mut PortOutcome) {
+        let Some(reference) = &tapped.reference else { return };
+        let what = format!("reference ({})", reference.provenance);
+        let judgement = match tyndall_image::read(&reference.file) {
+            Ok(image) => {
+                let wanted = actual.compared().channels;
+                let expected = Picture::new(image.first_channels(wanted), actual.class);
+                reference.metric.judge(&Picture::new(actual.compared(), actual.class), &expected)
+            }
+            Err(error) => Judgement::failed(error.to_string()),
+        };
+        outcome.checks.push(Check::new(&what, judgement));
+    }
+
+    fn property(&self, property: &Property, tapped: &Tapped, actual: &Picture, rendered: &Rendered) -> Check {
+        let graph = &self.ready.loaded.graph;
+        let other = |name: &str| rendered.picture(&self.ready.plan, find(graph, name)?);
+        let computed = || self.computed(tapped, actual, rendered);
+        let judgement = property::judge(property, actual, &other, &computed);
+        let ports = property.ports().iter().filter_map(|name| find(graph, name));
+        let also_on = ports.map(|port| graph.pass(port.pass).name.clone()).collect();
+        Check { what: property::name(property), judgement, also_on }
+    }
+
+    /// What the pass's reference on the CPU makes of the inputs that the pass was given.
+    fn computed(&self, tapped: &Tapped, actual: &Picture, rendered: &Rendered) -> Result<Picture, String> {
+        let plan = &self.ready.plan;
+        let position = plan.position(tapped.port.pass).ok_or("the pass does not run")?;
+        let descriptor = plan.descriptor(position);
+        let registered = self.ready.registry.pass(&descriptor.name).and_then(|pass| pass.reference);
+        let reference = registered.ok_or_else(|| format!("`{}` has no reference on the CPU", descriptor.name))?;
+        let ports = || descriptor.ports.iter().enumerate();
+        let inputs = self.ready.inputs(tapped.port.pass).into_iter();
+        let inputs = inputs.filter_map(|(index, from)| {
+            Some((descriptor.ports[index].name.as_str(), rendered.ports.get(&from)?.as_ref()))
+        });
+        let resources = ports().filter_map(|(index, port)| {
+            Some((port.name.as_str(), plan.slots[plan.bindings(position)[index]? as usize].resource))
+        });
+        let frame = rendered.frame;
+        let value = |setting: &ParamSetting| match setting {
+            ParamSetting::Value(value) => value.clone(),
+            ParamSetting::Frame => ParamValue::Float(f64::from(frame)),
+            ParamSetting::Time => ParamValue::Float(f64::from(frame) / tyndall_gpu::FRAMES_PER_SECOND),
+        };
+        let params = descriptor.params.iter().zip(plan.params(position));
+        let encoded = encode(&self.ready.loaded, plan, frame);
+        let input = ReferenceInput {
+            inputs: inputs.collect(),
+            resources: resources.collect(),
+            params: params.map(|(param, setting)| (param.name.as_str(), value(setting))).collect(),
+            scene: &|name| encoded.as_ref().map_or(&[], |encoded| encoded.bytes(name)),
+        };
+        let mut outputs: BTreeMap<&str, Vec<f32>> = reference(&input)?;
+        let port = &graph_port(self.ready, tapped).name;
+        let data = outputs.remove(port.as_str()).ok_or_else(|| format!("the reference says nothing of `{port}`"))?;
+        if data.len() != actual.image.data.len() {
+            return Err(format!(
+                "the reference gives {} numbers, and the port holds {}",
+                data.len(),
+                actual.image.data.len()
+            ));
+        }
+        Ok(Picture::new(Image { data, ..actual.image }, actual.class))
+    }
+}
+
+fn graph_port<'a>(ready: &'a Ready, tapped: &Tapped) -> &'a tyndall_graph::descriptor::PortDescriptor {
+    ready.loaded.graph.port(tapped.port)
+}
+
+impl Check {
+    pub(crate) fn new(what: &str, judgement: Judgement) -> Self {
+        Self { what: what.to_owned(), judgement, also_on: Vec::new() }
+    }
+}
+
+/// Says whose fault each failure is: that of the first pass which fails though all that it reads holds. What depends on
+/// a pass that fails is inherited. A relation is weighed like a check of its port, after all of them.
+pub(crate) fn attribute(plan: &Plan, outcome: &mut Outcome) {
+    let upstream = crate::run::upstream(plan);
+    let position = |name: &str| (0..plan.passes.len()).find(|pass| plan.pass_name(*pass as u32) == name);
+    let mut failing = vec![false; plan.passes.len()];
+    for port in outcome.ports.iter().filter(|port| !port.passed()) {
+        if let Some(position) = position(&port.pass) {
+            failing[position] = true;
+        }
+    }
+    for relation in outcome.relations.iter().filter(|relation| !relation.judgement.passed) {
+        if let Some(position) = position(&relation.pass) {
+            failing[position] = true;
+        }
+    }
+    // A check that names other passes falls with them, so a pass is only then to blame for itself when a check fails
+    // that does not.
+    let falls_with = |pass: usize, also_on: &[String]| {
+        let others = also_on.iter().filter_map(|name| position(name)).filter(|other| *other != pass);
+        let involved = others.flat_map(|other| upstream[other].iter().copied().chain([other]));
+        upstream[pass].iter().copied().chain(involved).any(|other| other != pass && failing[other])
+    };
+    for port in outcome.ports.iter_mut().filter(|port| !port.passed()) {
+        let Some(pass) = position(&port.pass) else { continue };
+        let failed = port.checks.iter().filter(|check| !check.judgement.passed);
+        let all_fall = failed.fold(true, |all, check| all && falls_with(pass, &check.also_on));
+        port.state = if all_fall { State::Inherited } else { State::Guilty };
+    }
+    for relation in outcome.relations.iter_mut().filter(|relation| !relation.judgement.passed) {
+        let inherited = position(&relation.pass).is_some_and(|pass| falls_with(pass, &[]));
+        relation.state = if inherited { State::Inherited } else { State::Guilty };
+    }
+}
