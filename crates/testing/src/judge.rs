@@ -158,36 +158,60 @@ impl Check {
 }
 
 /// Says whose fault each failure is: that of the first pass which fails though all that it reads holds. What depends on
-/// a pass that fails is inherited. A relation is weighed like a check of its port, after all of them.
+/// a pass that fails is inherited. A check that names other passes falls with these; a relation is weighed like a check.
 pub(crate) fn attribute(plan: &Plan, outcome: &mut Outcome) {
-    let upstream = crate::run::upstream(plan);
-    let position = |name: &str| (0..plan.passes.len()).find(|pass| plan.pass_name(*pass as u32) == name);
-    let mut failing = vec![false; plan.passes.len()];
-    for port in outcome.ports.iter().filter(|port| !port.passed()) {
-        if let Some(position) = position(&port.pass) {
-            failing[position] = true;
-        }
+    let mut blame = Blame::new(plan);
+    for port in &outcome.ports {
+        let failed = || port.checks.iter().filter(|check| !check.judgement.passed);
+        blame.failing(&port.pass, failed().any(|check| check.also_on.is_empty()));
     }
     for relation in outcome.relations.iter().filter(|relation| !relation.judgement.passed) {
-        if let Some(position) = position(&relation.pass) {
-            failing[position] = true;
-        }
+        blame.failing(&relation.pass, true);
     }
-    // A check that names other passes falls with them, so a pass is only then to blame for itself when a check fails
-    // that does not.
-    let falls_with = |pass: usize, also_on: &[String]| {
-        let others = also_on.iter().filter_map(|name| position(name)).filter(|other| *other != pass);
-        let involved = others.flat_map(|other| upstream[other].iter().copied().chain([other]));
-        upstream[pass].iter().copied().chain(involved).any(|other| other != pass && failing[other])
-    };
-    for port in outcome.ports.iter_mut().filter(|port| !port.passed()) {
-        let Some(pass) = position(&port.pass) else { continue };
+    // Only now is it known what a check about other passes falls with; a pass that nothing excuses fails by itself.
+    for port in outcome.ports.iter().filter(|port| !port.passed()) {
         let failed = port.checks.iter().filter(|check| !check.judgement.passed);
-        let all_fall = failed.fold(true, |all, check| all && falls_with(pass, &check.also_on));
-        port.state = if all_fall { State::Inherited } else { State::Guilty };
+        let excused = failed.fold(true, |all, check| all && blame.falls_with(&port.pass, &check.also_on));
+        blame.failing(&port.pass, !excused);
+    }
+    for port in outcome.ports.iter_mut().filter(|port| !port.passed()) {
+        let failed = port.checks.iter().filter(|check| !check.judgement.passed);
+        let excused = failed.fold(true, |all, check| all && blame.falls_with(&port.pass, &check.also_on));
+        port.state = if excused { State::Inherited } else { State::Guilty };
     }
     for relation in outcome.relations.iter_mut().filter(|relation| !relation.judgement.passed) {
-        let inherited = position(&relation.pass).is_some_and(|pass| falls_with(pass, &[]));
-        relation.state = if inherited { State::Inherited } else { State::Guilty };
+        let excused = blame.falls_with(&relation.pass, &[]);
+        relation.state = if excused { State::Inherited } else { State::Guilty };
+    }
+}
+
+/// Which passes of a plan fail by themselves.
+struct Blame<'a> {
+    plan: &'a Plan,
+    upstream: Vec<std::collections::BTreeSet<usize>>,
+    failing: Vec<bool>,
+}
+
+impl<'a> Blame<'a> {
+    fn new(plan: &'a Plan) -> Self {
+        Self { plan, upstream: crate::run::upstream(plan), failing: vec![false; plan.passes.len()] }
+    }
+
+    fn position(&self, name: &str) -> Option<usize> {
+        (0..self.plan.passes.len()).find(|pass| self.plan.pass_name(*pass as u32) == name)
+    }
+
+    fn failing(&mut self, pass: &str, fails: bool) {
+        if let Some(position) = self.position(pass) {
+            self.failing[position] |= fails;
+        }
+    }
+
+    /// Whether something upstream of a pass fails, or one of these others, or something upstream of one.
+    fn falls_with(&self, pass: &str, also_on: &[String]) -> bool {
+        let Some(pass) = self.position(pass) else { return false };
+        let others = also_on.iter().filter_map(|name| self.position(name)).filter(|other| *other != pass);
+        let involved = others.flat_map(|other| self.upstream[other].iter().copied().chain([other]));
+        self.upstream[pass].iter().copied().chain(involved).any(|other| other != pass && self.failing[other])
     }
 }

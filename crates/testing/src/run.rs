@@ -14,6 +14,7 @@ use crate::adapter::AdapterClass;
 use crate::file::{Tapped, TestFile, check, matches, read};
 use crate::golden::{self, Records};
 use crate::judge::{Judge, attribute};
+use crate::metric::Judgement;
 use crate::options::Options;
 use crate::outcome::{Outcome, Problem, RelationOutcome, State};
 use crate::picture::Picture;
@@ -99,7 +100,9 @@ impl Session {
             return Err(out.into());
         }
         outcome.warnings = out;
-        let roots = tapped.iter().map(|tapped| tapped.port).collect();
+        let graph = &loaded.graph;
+        let named = file.ports_named();
+        let roots = tapped.iter().map(|tapped| tapped.port).chain(named.filter_map(|name| find(graph, name))).collect();
         let plan = Self::plan(&loaded.graph, Roots::Ports(roots), Variation::PLAIN)?;
         let records = Records::read(&file.goldens())?;
         let mut tapped = tapped;
@@ -128,14 +131,17 @@ impl Session {
             }
             for (expectation, port) in expect.iter().zip(&ports) {
                 for (frame, own) in own.iter().enumerate() {
-                    let others: Vec<Picture> =
-                        runs.iter().filter_map(|run| run[frame].picture(&ready.plan, *port)).collect();
-                    let Some(own) = own.picture(&ready.plan, *port) else { continue };
+                    let others: Option<Vec<Picture>> =
+                        runs.iter().map(|run| run.get(frame)?.picture(&ready.plan, *port)).collect();
+                    let judgement = match (own.picture(&ready.plan, *port), others) {
+                        (Some(own), Some(others)) => relation::judge(expectation.change, &own, &others),
+                        _ => Judgement::failed("it was not rendered in every run".to_owned()),
+                    };
                     outcomes.push(RelationOutcome {
                         about: relation.about.clone(),
                         port: expectation.port.clone(),
                         pass: graph.pass(port.pass).name.clone(),
-                        judgement: relation::judge(expectation.change, &own, &others),
+                        judgement,
                         state: State::Passed,
                     });
                 }
@@ -151,10 +157,7 @@ impl Ready {
     fn ports(&self) -> Vec<PortRef> {
         let graph = &self.loaded.graph;
         let mut ports: BTreeSet<PortRef> = self.tapped.iter().map(|tapped| tapped.port).collect();
-        let properties = self.tapped.iter().flat_map(|tapped| &tapped.properties);
-        ports.extend(properties.flat_map(|property| property.ports()).filter_map(|name| find(graph, name)));
-        let expected = self.file.relations.iter().flat_map(|relation| &relation.expect);
-        ports.extend(expected.filter_map(|expectation| find(graph, &expectation.port)));
+        ports.extend(self.file.ports_named().filter_map(|name| find(graph, name)));
         for tapped in self.tapped.iter().filter(|tapped| tapped.asks_cpu()) {
             ports.extend(self.inputs(tapped.port.pass).into_iter().map(|(_, port)| port));
         }

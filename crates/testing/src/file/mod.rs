@@ -215,6 +215,14 @@ impl TestFile {
         self.source.place(span)
     }
 
+    /// The ports that properties and relations name.
+    pub fn ports_named(&self) -> impl Iterator<Item = &str> {
+        let properties = self.taps.iter().flat_map(|tap| &tap.properties);
+        let named = properties.flat_map(|property| property.value.ports()).map(String::as_str);
+        let expected = self.relations.iter().flat_map(|relation| &relation.expect);
+        named.chain(expected.map(|expectation| expectation.port.as_str()))
+    }
+
     /// Its name without `.test.ron`.
     pub fn stem(&self) -> &str {
         stem(&self.path)
