@@ -70,7 +70,7 @@ fn interval_of_way(beside: LightBesideRay, way: f32) -> Interval {
 // A piece of a ray, ready for its nodes.
 struct Piece {
     rho: f32,
-    squared: bool,              // see Lobe
+    squared: u32,               // see Lobe
     mu_squared: f32,
     middle: f32,                // v where y = 0
     slope: f32,                 // tan(psi_m/2)
@@ -107,7 +107,7 @@ fn piece_of(lobe: Lobe, light: Light, spot: SpotBesideRay, beside: LightBesideRa
     let reach = lobe.rho * width / (d0 * d1 + rho2 + start * end);
     let bend = clamp(BEND_MAX - BEND_LOSS * depth_of_v * (middle - start), 0.0, BEND_MAX) * min(1.0, depth_of_v * width);
     let norm = inverseSqrt(1.0 + slope * slope);
-    let weight = 2.0 * lobe.scale / (beside.h * rho2) * reach * norm * select(1.0, norm / lobe.rho, lobe.squared);
+    let weight = 2.0 * lobe.scale / (beside.h * rho2) * reach * norm * select(1.0, norm / lobe.rho, lobe.squared != 0u);
     let rate = medium.extinction * -1.4426950408889634;
     let exponent = select(0.0, light.exponent, light.kind == SPOT);
     return Piece(lobe.rho, lobe.squared, lobe.mu_squared, middle, slope, reach, bend, weight, beside.t, beside.h, rate,
@@ -130,7 +130,7 @@ fn at_node(piece: Piece, node: vec2<f32>) -> vec3<f32> {
     let mu = (c * c - s * s) * cb * inverse;
     let inverse_b = c * q * inverse;
     let root = sqrt(q * inverse_b);
-    let density = inverse_b * root * select(1.0, root, piece.squared) * (1.0 + piece.mu_squared * mu * mu);
+    let density = inverse_b * root * select(1.0, root, piece.squared != 0u) * (1.0 + piece.mu_squared * mu * mu);
     let cosine = 2.0 * c * s * cb * inverse * piece.across - mu * piece.along;
     let falloff = piece.exponent * log2(max(cosine, 1e-30));
     let weight = node.y - 2.0 * node.x * node.y * piece.bend;
@@ -174,13 +174,13 @@ struct PieceOfAirlight {
 //
 //     var cursor = Cursor(0u, 0u, 0.0);
 //     loop {
-//         let piece = airlight(cursor, lights.items[cursor.light], medium, ray, way, nodes);
+//         let piece = airlight(cursor, lights.items[cursor.light], medium, phase, ray, way, nodes);
 //         sum += piece.radiance;
 //         cursor = piece.next;
 //         if cursor.light >= lights.count { break; }
 //     }
-fn airlight(cursor: Cursor, light: Light, medium: Medium, ray: Ray, way: f32, nodes: u32) -> PieceOfAirlight {
-    let lobe = lobe_of(medium, cursor.lobe);
+fn airlight(cursor: Cursor, light: Light, medium: Medium, phase: Phase, ray: Ray, way: f32, nodes: u32) -> PieceOfAirlight {
+    let lobe = lobe_of(phase, cursor.lobe);
     let beside = light_beside_ray(light, ray);
     let depth_of_v = max(least_extinction(medium) * beside.h, 1e-30);
     let whole = interval_of_way(beside, way);
@@ -193,7 +193,7 @@ fn airlight(cursor: Cursor, light: Light, medium: Medium, ray: Ray, way: f32, no
     let scattered = medium.scattering * light.intensity * piece_airlight(piece, nodes);
     let radiance = select(scattered, directional_airlight(light, lobe, medium, ray, way), light.kind == DIRECTIONAL);
 
-    let more_lobes = cursor.lobe + 1u < lobe_count(medium);
+    let more_lobes = cursor.lobe + 1u < phase.lobe_count;
     let next_lobe = select(select(0u, cursor.lobe + 1u, more_lobes), cursor.lobe, chunk.more);
     let next_light = cursor.light + select(1u, 0u, chunk.more || more_lobes);
     let next_start = select(0.0, chunk.interval.start + chunk.interval.width, chunk.more);

@@ -2,6 +2,19 @@
 
 use glam::DVec3;
 
+/// What passes see of a scene at one time, triangles and materials apart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// Where the picture is taken from.
+    pub camera: Camera,
+    /// What fills space; extinction 0 is none.
+    pub medium: Medium,
+    /// What a ray that meets nothing sees behind the medium, W/(sr m²).
+    pub background: DVec3,
+    /// In the order of the scene.
+    pub lights: Vec<Light>,
+}
+
 /// A pinhole camera: twin of `Camera`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
@@ -16,9 +29,10 @@ pub struct Camera {
 }
 
 /// A phase function: how a scattering event spreads light over directions.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Phase {
     /// The same everywhere, 1/(4π).
+    #[default]
     Isotropic,
     /// Henyey and Greenstein 1941.
     HenyeyGreenstein {
@@ -57,6 +71,13 @@ pub struct Medium {
     pub albedo: DVec3,
     /// Phase function.
     pub phase: Phase,
+}
+
+impl Medium {
+    /// Scattering coefficient σ_s = albedo·σ_t of each channel, 1/m.
+    pub fn scattering(&self) -> DVec3 {
+        self.albedo * self.extinction
+    }
 }
 
 /// A light.

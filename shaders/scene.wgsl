@@ -5,9 +5,10 @@
 //
 //     var<uniform> camera: Camera;            var<storage, read> vertices: Vertices;
 //     var<uniform> medium: Medium;            var<storage, read> triangles: Triangles;
-//     var<uniform> background: Background;    var<storage, read> objects: Objects;
-//     var<storage, read> lights: Lights;      var<storage, read> materials: Materials;
-//     var<storage, read> texels: Texels;      var<storage, read> textures: Textures;
+//     var<uniform> phase: Phase;              var<storage, read> objects: Objects;
+//     var<uniform> background: Background;    var<storage, read> materials: Materials;
+//     var<storage, read> lights: Lights;      var<storage, read> textures: Textures;
+//     var<storage, read> texels: Texels;
 //
 // A list is a count, padding to 16 bytes, and at least one element, zeroed where the list is empty.
 
@@ -23,25 +24,31 @@ struct Camera {
     pad2: f32,
 }
 
-// Values of Medium.phase.
-const ISOTROPIC: u32 = 0u;
-const HENYEY_GREENSTEIN: u32 = 1u;
-const DOUBLE_HENYEY_GREENSTEIN: u32 = 2u;
-const SCHLICK: u32 = 3u;
-const RAYLEIGH: u32 = 4u;
-const CORNETTE_SHANKS: u32 = 5u;
-
-// A homogeneous medium that fills space; extinction 0 is none.
+// A homogeneous medium that fills space; extinction 0 is none. How it scatters is Phase, scene data of its own: a table
+// over directions and optical depths reads that alone, and is kept while the density changes.
 struct Medium {
     extinction: vec3<f32>,      // sigma_t, 1/m
-    phase: u32,                 // which phase function
+    pad0: f32,
     scattering: vec3<f32>,      // sigma_s = albedo * sigma_t, 1/m
-    g1: f32,                    // g, k of Schlick, or g1; above 0 forward
-    g2: f32,                    // g2 of the double Henyey-Greenstein
-    weight: f32,                // f, the weight of g2, 0..1
-    rho1: f32,                  // width of the (first) lobe, worked out in double precision, as 1 - g is lost in f32:
-                                // (1-g)/(1+g); Schlick sqrt((1-k)/(1+k)); isotropic and Rayleigh 1
-    rho2: f32,                  // the same of the second lobe: (1-g2)/(1+g2); 1 where there is none
+    pad1: f32,
+}
+
+// One lobe of a phase function, see phase.wgsl:  scale * q^(-3/2 or -2) * (1 + mu_squared * mu^2).
+struct Lobe {
+    rho: f32,                   // width
+    scale: f32,                 // 1/sr
+    squared: u32,               // 1: q^(-2), Schlick; 0: q^(-3/2)
+    mu_squared: f32,
+}
+
+// The phase function of the medium. It is worked out in double precision, as 1 - g is lost in f32.
+struct Phase {
+    legendre: vec4<f32>,        // mean of the Legendre polynomials P_0..P_3 of mu; of Henyey and Greenstein's 1, g, g^2, g^3
+    lobe_count: u32,            // 1 or 2; a lobe beyond it is 0 everywhere
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    lobes: array<Lobe, 2>,
 }
 
 // What a ray that meets nothing sees behind the medium.

@@ -7,6 +7,7 @@ override nodes: u32 = 12;
 
 var<uniform> camera: Camera;
 var<uniform> medium: Medium;
+var<uniform> phase: Phase;
 var<storage, read> lights: Lights;
 var depth: texture_2d<f32>;
 var radiance: texture_storage_2d<rgba32float, write>;
@@ -21,7 +22,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     // a list without lights holds one of intensity 0
     var cursor = Cursor(0u, 0u, 0.0);
     loop {
-        let piece = airlight(cursor, lights.items[cursor.light], medium, ray, way, nodes);
+        let piece = airlight(cursor, lights.items[cursor.light], medium, phase, ray, way, nodes);
         sum += piece.radiance;
         cursor = piece.next;
         if cursor.light >= count { break; }

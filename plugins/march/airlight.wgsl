@@ -20,6 +20,7 @@ override steps: u32 = 256;
 
 var<uniform> camera: Camera;
 var<uniform> medium: Medium;
+var<uniform> phase: Phase;
 var<storage, read> lights: Lights;
 var depth: texture_2d<f32>;
 var radiance: texture_storage_2d<rgba32float, write>;
@@ -32,34 +33,34 @@ struct Sample {
     cosine: f32,
 }
 
-fn sample_at(x: f32, beside: LightBesideRay, phase: Phase) -> Sample {
+fn sample_at(x: f32, beside: LightBesideRay, scattering: Phase) -> Sample {
     let s = x - beside.t;
     let r2 = beside.h * beside.h + s * s;
     let inverse_r = inverseSqrt(r2);
     let r = r2 * inverse_r;
     let w = 0.5 + 0.5 * s * inverse_r;
-    return Sample(phase_at(phase, w) * inverse_r * inverse_r, x + r, s * inverse_r, beside.h * inverse_r);
+    return Sample(phase_at(scattering, w) * inverse_r * inverse_r, x + r, s * inverse_r, beside.h * inverse_r);
 }
 
-fn march_point(light: Light, beside: LightBesideRay, phase: Phase, way: f32) -> vec3<f32> {
+fn march_point(light: Light, beside: LightBesideRay, scattering: Phase, way: f32) -> vec3<f32> {
     let dx = way / f32(steps);
     let count = select(0u, steps, light.kind == POINT);
     var sum = vec3<f32>(0.0);
     for (var i = 0u; i < count; i++) {
-        let point = sample_at((f32(i) + 0.5) * dx, beside, phase);
+        let point = sample_at((f32(i) + 0.5) * dx, beside, scattering);
         sum += point.density * exp(-medium.extinction * point.path);
     }
     return medium.scattering * light.intensity * sum * dx;
 }
 
-fn march_spot(light: Light, beside: LightBesideRay, phase: Phase, direction: vec3<f32>, way: f32) -> vec3<f32> {
+fn march_spot(light: Light, beside: LightBesideRay, scattering: Phase, direction: vec3<f32>, way: f32) -> vec3<f32> {
     let dx = way / f32(steps);
     let count = select(0u, steps, light.kind == SPOT);
     let along = dot(light.direction, direction);
     let across = dot(light.direction, beside.from_light);
     var sum = vec3<f32>(0.0);
     for (var i = 0u; i < count; i++) {
-        let point = sample_at((f32(i) + 0.5) * dx, beside, phase);
+        let point = sample_at((f32(i) + 0.5) * dx, beside, scattering);
         let falloff = spot_falloff(light, along * point.sine + across * point.cosine);
         sum += point.density * falloff * exp(-medium.extinction * point.path);
     }
@@ -67,7 +68,7 @@ fn march_spot(light: Light, beside: LightBesideRay, phase: Phase, direction: vec
 }
 
 // The irradiance of a directional light reaches every point unattenuated.
-fn march_directional(light: Light, phase: Phase, direction: vec3<f32>, way: f32) -> vec3<f32> {
+fn march_directional(light: Light, scattering: Phase, direction: vec3<f32>, way: f32) -> vec3<f32> {
     let half_sum = 0.5 * (light.direction + direction);
     let dx = way / f32(steps);
     let count = select(0u, steps, light.kind == DIRECTIONAL);
@@ -75,7 +76,7 @@ fn march_directional(light: Light, phase: Phase, direction: vec3<f32>, way: f32)
     for (var i = 0u; i < count; i++) {
         sum += exp(-medium.extinction * ((f32(i) + 0.5) * dx));
     }
-    return medium.scattering * light.intensity * phase_at(phase, dot(half_sum, half_sum)) * sum * dx;
+    return medium.scattering * light.intensity * phase_at(scattering, dot(half_sum, half_sum)) * sum * dx;
 }
 
 @compute @workgroup_size(8, 8)
@@ -85,16 +86,17 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let ray = ray_of_pixel(camera, id.xy, size);
     let least = max(least_extinction(medium), 1e-30);
     let way = min(textureLoad(depth, id.xy, 0).x, MARCH_DEPTH / least);
-    let phase = phase_of(medium);
+    // read here: compilers do not move this out of a loop over points
+    let scattering = phase;
     var sum = vec3<f32>(0.0);
     // a list without lights holds one of intensity 0; why the test stands at the end: see shaders/airlight.wgsl
     var i = 0u;
     loop {
         let light = lights.items[i];
         let beside = light_beside_ray(light, ray);
-        sum += march_point(light, beside, phase, way);
-        sum += march_spot(light, beside, phase, ray.direction, way);
-        sum += march_directional(light, phase, ray.direction, way);
+        sum += march_point(light, beside, scattering, way);
+        sum += march_spot(light, beside, scattering, ray.direction, way);
+        sum += march_directional(light, scattering, ray.direction, way);
         i++;
         if i >= count { break; }
     }

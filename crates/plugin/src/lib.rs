@@ -14,6 +14,7 @@ mod folder;
 mod manifest;
 mod pass;
 mod ports;
+mod presets;
 mod registry;
 mod search;
 

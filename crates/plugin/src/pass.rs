@@ -55,8 +55,49 @@ pub struct ReferenceInput<'a> {
     pub resources: BTreeMap<&'a str, Resource>,
     /// Values of the parameters, by name.
     pub params: BTreeMap<&'a str, ParamValue>,
-    /// The bytes of scene data by name, as the shader reads them; empty for an unknown name.
-    pub scene: &'a dyn Fn(&str) -> &'a [u8],
+    /// The scene in this frame; `None` where the graph has none.
+    pub scene: Option<&'a tyndall_shaders::scene::Scene>,
+}
+
+impl ReferenceInput<'_> {
+    /// What was fed into a port.
+    ///
+    /// # Errors
+    /// Where nothing was.
+    pub fn input(&self, port: &str) -> Result<&PortData, String> {
+        self.inputs.get(port).copied().ok_or_else(|| format!("nothing is fed into `{port}`"))
+    }
+
+    /// Texels of a port in x and y.
+    ///
+    /// # Errors
+    /// Where the port is no texture.
+    pub fn size(&self, port: &str) -> Result<[u32; 2], String> {
+        match self.resources.get(port) {
+            Some(Resource::Texture { width, height, .. }) => Ok([*width, *height]),
+            _ => Err(format!("`{port}` is no texture")),
+        }
+    }
+
+    /// The value of a parameter that is one number.
+    ///
+    /// # Errors
+    /// Where it is none.
+    pub fn number(&self, param: &str) -> Result<f64, String> {
+        match self.params.get(param) {
+            Some(ParamValue::Float(value)) => Ok(*value),
+            Some(ParamValue::Integer(value)) => Ok(*value as f64),
+            _ => Err(format!("`{param}` is no number")),
+        }
+    }
+
+    /// The scene.
+    ///
+    /// # Errors
+    /// Where there is none.
+    pub fn scene(&self) -> Result<&tyndall_shaders::scene::Scene, String> {
+        self.scene.ok_or_else(|| "the graph has no scene".to_owned())
+    }
 }
 
 /// Makes a pass ready for a plan.

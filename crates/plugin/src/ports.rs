@@ -10,6 +10,7 @@ use tyndall_shader::{Linked, Param, ParamKind, ReflectedPort, derive_port};
 
 use crate::codes::{BAD_PARAM, BAD_PORT, BAD_SIZE};
 use crate::manifest::{Entry, ManifestPass};
+use crate::presets::{preset_param, presets};
 
 /// A switch whose work is not built yet.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,7 +32,10 @@ pub(crate) fn descriptor(
 ) -> PassDescriptor {
     let mut decoder = Decoder::new(source, out);
     let ports = pass.ports.iter().filter_map(|entry| port(&mut decoder, entry, linked)).collect();
-    let params = pass.params.iter().filter_map(|entry| param(&mut decoder, entry, linked)).collect();
+    let mut params: Vec<ParamDescriptor> =
+        pass.params.iter().filter_map(|entry| param(&mut decoder, entry, linked)).collect();
+    let presets = presets(&mut decoder, &pass.presets, &params);
+    params.splice(0..0, preset_param(&presets));
     let mut scene: Vec<String> = linked.resources.iter().map(|resource| resource.name.clone()).collect();
     scene.retain(|name| scene_names.contains(&name.as_str()));
     scene.sort();
@@ -41,6 +45,7 @@ pub(crate) fn descriptor(
         source: pass.origin.clone(),
         ports,
         params,
+        presets,
         scene,
         side_effect: false,
         revision: 0,

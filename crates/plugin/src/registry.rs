@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use tyndall_document::{Diagnostic, Diagnostics, Place, near};
 use tyndall_gpu::{GpuError, Program, Programs, Setup};
-use tyndall_graph::descriptor::PassDescriptor;
+use tyndall_graph::descriptor::{PRESET, PassDescriptor};
 use tyndall_graph::{Catalogue, PictureSize};
 use tyndall_shader::{Library, check_all, link};
 
@@ -249,6 +249,7 @@ impl Builder<'_> {
         if !linked.is_empty() {
             let mut built = descriptor.clone();
             built.params.retain(|param| notices.iter().all(|notice| notice.param != param.name));
+            built.params.retain(|param| param.name != PRESET || built.presets.is_empty());
             let problems = check_all(&linked, &built, self.scene_names, &[]);
             if !problems.is_empty() {
                 self.out.extend(problems);

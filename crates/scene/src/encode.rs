@@ -2,6 +2,8 @@
 
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
+use tyndall_shaders::phase;
+use tyndall_shaders::scene::Phase;
 
 use crate::adjacency::Adjacency;
 use crate::frame::{Frame, FrameLight, View};
@@ -14,6 +16,7 @@ use crate::scene::Scene;
 pub const SCENE_DATA: &[&str] = &[
     "camera",
     "medium",
+    "phase",
     "background",
     "lights",
     "vertices",
@@ -25,9 +28,9 @@ pub const SCENE_DATA: &[&str] = &[
 ];
 
 const CAMERA: usize = 0;
-const LIGHTS: usize = 3;
-const VERTICES: usize = 4;
-const TRIANGLES: usize = 5;
+const LIGHTS: usize = 4;
+const VERTICES: usize = 5;
+const TRIANGLES: usize = 6;
 
 /// The bytes of each name of scene data.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,9 +44,11 @@ pub struct Encoded {
 impl Encoded {
     pub(crate) fn of(scene: &Scene, time: f64, aspect: f64) -> Encoded {
         let frame = scene.at(time);
+        let medium = scene.medium.as_ref().unwrap_or(&VACUUM);
         let bytes = [
             bytes_of(&camera(&frame.camera, aspect)).to_vec(),
-            bytes_of(&medium(scene.medium.as_ref())).to_vec(),
+            bytes_of(&layout::Medium::from(medium)).to_vec(),
+            bytes_of(&layout::Phase::from(&medium.phase)).to_vec(),
             bytes_of(&layout::Background { radiance: floats(scene.background), pad: 0.0 }).to_vec(),
             list(frame.lights.iter().map(light)),
             vertices(scene, &frame),
@@ -129,35 +134,32 @@ fn camera(view: &View, aspect: f64) -> layout::Camera {
     }
 }
 
-fn medium(medium: Option<&Medium>) -> layout::Medium {
-    let none = Medium { extinction: DVec3::ZERO, albedo: DVec3::ONE, phase: Default::default() };
-    let medium = medium.unwrap_or(&none);
-    let phase = medium.phase.encode();
-    layout::Medium {
-        extinction: floats(medium.extinction),
-        phase: phase.kind,
-        scattering: floats(medium.scattering()),
-        g1: below_one(phase.g1),
-        g2: below_one(phase.g2),
-        weight: phase.weight as f32,
-        rho1: phase.rho1 as f32,
-        rho2: phase.rho2 as f32,
+/// What there is where a scene has no medium: nothing.
+const VACUUM: Medium = Medium { extinction: DVec3::ZERO, albedo: DVec3::ONE, phase: Phase::Isotropic };
+
+impl From<&Medium> for layout::Medium {
+    fn from(medium: &Medium) -> Self {
+        let (extinction, scattering) = (floats(medium.extinction), floats(medium.scattering()));
+        layout::Medium { extinction, scattering, ..Default::default() }
     }
 }
 
-/// Rounds toward 0 what would round to ±1, where phase functions have no value.
-fn below_one(g: f64) -> f32 {
-    let rounded = g as f32;
-    if rounded.abs() < 1.0 { rounded } else { rounded.next_down_toward_zero() }
-}
-
-trait TowardZero {
-    fn next_down_toward_zero(self) -> Self;
-}
-
-impl TowardZero for f32 {
-    fn next_down_toward_zero(self) -> f32 {
-        if self > 0.0 { self.next_down() } else { self.next_up() }
+impl From<&Phase> for layout::Phase {
+    fn from(kind: &Phase) -> Self {
+        let lobes = phase::lobes(kind);
+        let mut encoded = layout::Phase {
+            legendre: phase::legendre(kind).map(|mean| mean as f32),
+            lobe_count: lobes.len() as u32,
+            // a width of 1 and a scale of 0: nothing, everywhere
+            lobes: [layout::Lobe { rho: 1.0, ..Default::default() }; 2],
+            ..Default::default()
+        };
+        for (slot, lobe) in encoded.lobes.iter_mut().zip(&lobes) {
+            let squared = u32::from(lobe.squared);
+            let (rho, scale, mu_squared) = (lobe.rho as f32, lobe.scale as f32, lobe.mu_squared as f32);
+            *slot = layout::Lobe { rho, scale, squared, mu_squared };
+        }
+        encoded
     }
 }
 

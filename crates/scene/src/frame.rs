@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
-use crate::model::{Camera, LightKind, Medium, NodeTransform, Object, Placement};
+use crate::model::{Camera, LightKind, NodeTransform, Object, Placement};
 use crate::scene::Scene;
 
 /// Everything that depends on the time.
@@ -132,11 +132,4 @@ fn view(scene: &Scene, objects: &[Placed], time: f64) -> View {
     let right = forward.cross(up.normalize_or(DVec3::Y)).try_normalize();
     let right = right.unwrap_or_else(|| forward.any_orthonormal_vector());
     View { position, right, up: right.cross(forward), forward, vertical_fov }
-}
-
-impl Medium {
-    /// σ_s = albedo·σ_t, 1/m.
-    pub fn scattering(&self) -> DVec3 {
-        self.albedo * self.extinction
-    }
 }

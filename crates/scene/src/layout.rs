@@ -30,20 +30,44 @@ pub struct Camera {
 pub struct Medium {
     /// σ_t, 1/m.
     pub extinction: [f32; 3],
-    /// Which phase function.
-    pub phase: u32,
+    /// 0.
+    pub pad0: f32,
     /// σ_s, 1/m.
     pub scattering: [f32; 3],
-    /// g, k or g1.
-    pub g1: f32,
-    /// g2.
-    pub g2: f32,
-    /// f, weight of g2.
-    pub weight: f32,
-    /// Width of the first lobe.
-    pub rho1: f32,
-    /// Width of the second lobe.
-    pub rho2: f32,
+    /// 0.
+    pub pad1: f32,
+}
+
+/// `Lobe`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Lobe {
+    /// Width.
+    pub rho: f32,
+    /// 1/sr.
+    pub scale: f32,
+    /// Whether the power is −2 and not −3/2.
+    pub squared: u32,
+    /// Factor of µ².
+    pub mu_squared: f32,
+}
+
+/// `Phase`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Phase {
+    /// Means of P₀…P₃.
+    pub legendre: [f32; 4],
+    /// 1 or 2.
+    pub lobe_count: u32,
+    /// 0.
+    pub pad0: u32,
+    /// 0.
+    pub pad1: u32,
+    /// 0.
+    pub pad2: u32,
+    /// One or two, and one that is 0 everywhere.
+    pub lobes: [Lobe; 2],
 }
 
 /// `Background`, padded to the 16 bytes that a uniform takes.

@@ -25,16 +25,16 @@ pub mod layout;
 mod mesh;
 pub mod model;
 mod overrides;
-mod phase;
 mod primitives;
 mod resolve;
 mod scene;
+mod twin;
 
 pub use self::codes::CODES;
 pub use self::encode::{Encoded, SCENE_DATA};
 pub use self::frame::{Bounds, Frame, FrameLight, View};
 pub use self::mesh::Mesh;
 pub use self::overrides::{Override, Overrides};
-pub use self::phase::Phase;
 pub use self::primitives::Primitive;
 pub use self::scene::Scene;
+pub use tyndall_shaders::scene::Phase;

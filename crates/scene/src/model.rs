@@ -6,18 +6,8 @@ use glam::{DAffine3, DQuat, DVec3};
 
 use crate::animate::Animated;
 use crate::mesh::Mesh;
-use crate::phase::Phase;
 
-/// A homogeneous medium that fills space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Medium {
-    /// σ_t, 1/m, per channel.
-    pub extinction: DVec3,
-    /// σ_s/σ_t, 0..1, per channel.
-    pub albedo: DVec3,
-    /// How it scatters.
-    pub phase: Phase,
-}
+pub use tyndall_shaders::scene::Medium;
 
 /// Where a light or the camera stands and looks.
 #[derive(Clone, Debug, PartialEq)]

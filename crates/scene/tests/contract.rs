@@ -4,7 +4,7 @@ use std::path::Path;
 
 use tyndall_document::{Diagnostics, Source, render_text};
 use tyndall_scene::layout;
-use tyndall_scene::{Override, Overrides, SCENE_DATA, Scene};
+use tyndall_scene::{Override, Overrides, Phase, SCENE_DATA, Scene};
 
 fn read_with(text: &str, overrides: &[(&str, &str)]) -> Result<Scene, Diagnostics> {
     let mut out = Diagnostics::default();
@@ -64,8 +64,8 @@ fn everything_of_the_contract() {
     assert_eq!((lights[1].direction, lights[1].exponent), ([0.0, -1.0, 0.0], 8.0));
     assert!((lights[1].cos_cutoff - 0.5).abs() < 1e-6);
     let medium: layout::Medium = view(&scene, "medium");
-    assert_eq!((medium.phase, medium.g1, medium.scattering), (1, 0.75, [0.05, 0.03, 0.07]));
-    assert!((medium.rho1 - 0.25 / 1.75).abs() < 1e-7);
+    assert_eq!(medium.scattering, [0.05, 0.03, 0.07]);
+    assert_eq!(view::<layout::Phase>(&scene, "phase"), layout::Phase::from(&Phase::HenyeyGreenstein { g: 0.75 }));
     let background: layout::Background = view(&scene, "background");
     assert_eq!(background.radiance, [0.1, 0.2, 0.3]);
     let objects: Vec<layout::Object> = items(&scene, "objects");
@@ -84,7 +84,9 @@ fn everything_of_the_contract() {
 fn defaults() {
     let scene = with_camera("");
     let medium: layout::Medium = view(&scene, "medium");
-    assert_eq!((medium.extinction, medium.scattering, medium.phase), ([0.0; 3], [0.0; 3], 0));
+    assert_eq!((medium.extinction, medium.scattering), ([0.0; 3], [0.0; 3]));
+    let isotropic = layout::Phase::from(&Phase::Isotropic);
+    assert_eq!(view::<layout::Phase>(&scene, "phase"), isotropic);
     let camera: layout::Camera = view(&scene, "camera");
     let tangent = (45f64.to_radians() / 2.0).tan() as f32;
     assert_eq!((camera.position, camera.forward), ([0.0, 1.0, 5.0], [0.0, 0.0, -1.0]));
@@ -97,30 +99,54 @@ fn defaults() {
         "medium: (extinction: (1, 2, 3)), lights: [Spot(position: (0, 0, 0), direction: (1, 0, 0), intensity: (1, 1, 1))]",
     );
     let medium: layout::Medium = view(&given, "medium");
-    assert_eq!((medium.scattering, medium.phase, medium.rho1, medium.rho2), ([1.0, 2.0, 3.0], 0, 1.0, 1.0));
+    assert_eq!(medium.scattering, [1.0, 2.0, 3.0]);
+    assert_eq!(view::<layout::Phase>(&given, "phase"), isotropic);
     let spot = items::<layout::Light>(&given, "lights")[0];
     assert_eq!((spot.cos_cutoff, spot.exponent, spot.radius), (0.0, 0.0, 0.0));
 }
 
 #[test]
 fn phase_functions() {
-    for (text, kind, g1, g2, weight) in [
-        ("Isotropic", 0, 0.0, 0.0, 0.0),
-        ("Isotropic()", 0, 0.0, 0.0, 0.0),
-        ("HenyeyGreenstein(g: -0.5)", 1, -0.5, 0.0, 0.0),
-        ("DoubleHenyeyGreenstein(g1: 0.8, g2: -0.3, f: 0.25)", 2, 0.8, -0.3, 0.25),
-        ("Schlick(k: 0.5)", 3, 0.5, 0.0, 0.0),
-        ("Rayleigh", 4, 0.0, 0.0, 0.0),
-        ("CornetteShanks(g: 0.9)", 5, 0.9, 0.0, 0.0),
+    for (text, expected) in [
+        ("Isotropic", Phase::Isotropic),
+        ("Isotropic()", Phase::Isotropic),
+        ("HenyeyGreenstein(g: -0.5)", Phase::HenyeyGreenstein { g: -0.5 }),
+        (
+            "DoubleHenyeyGreenstein(g1: 0.8, g2: -0.3, f: 0.25)",
+            Phase::DoubleHenyeyGreenstein { g1: 0.8, g2: -0.3, f: 0.25 },
+        ),
+        ("Schlick(k: 0.5)", Phase::Schlick { k: 0.5 }),
+        ("Rayleigh", Phase::Rayleigh),
+        ("CornetteShanks(g: 0.9)", Phase::CornetteShanks { g: 0.9 }),
     ] {
         let scene = with_camera(&format!("medium: (phase: {text})"));
-        let medium: layout::Medium = view(&scene, "medium");
-        assert_eq!((medium.phase, medium.g1, medium.g2, medium.weight), (kind, g1, g2, weight), "{text}");
+        assert_eq!(scene.medium.as_ref().expect("a medium").phase, expected, "{text}");
+        assert_eq!(view::<layout::Phase>(&scene, "phase"), layout::Phase::from(&expected), "{text}");
     }
-    // Any |g| below 1 is accepted; what single precision rounds to 1 keeps its width and stays below 1.
+    // Any |g| below 1 is accepted; what single precision rounds to 1 keeps its width.
     let scene = with_camera("medium: (phase: HenyeyGreenstein(g: 0.9999999999))");
-    let medium: layout::Medium = view(&scene, "medium");
-    assert!(medium.g1 < 1.0 && (medium.rho1 / 5e-11 - 1.0).abs() < 1e-4, "{medium:?}");
+    let phase: layout::Phase = view(&scene, "phase");
+    assert!((phase.lobes[0].rho / 5e-11 - 1.0).abs() < 1e-4, "{phase:?}");
+    assert!(phase.legendre[1] <= 1.0, "{phase:?}");
+}
+
+/// The encoded lobes in single precision are the phase function.
+#[test]
+fn lobes_are_encoded() {
+    let double = layout::Phase::from(&Phase::DoubleHenyeyGreenstein { g1: 0.8, g2: -0.3, f: 0.25 });
+    assert_eq!(double.lobe_count, 2);
+    let at = |w: f32| -> f32 {
+        let of = |l: &layout::Lobe| {
+            l.scale * (l.rho * l.rho * (1.0 - w) + w).powf(-1.5) * (1.0 + l.mu_squared * (1.0 - 2.0 * w).powi(2))
+        };
+        double.lobes.iter().map(of).sum()
+    };
+    let hg = |g: f64, mu: f64| (1.0 - g * g) / (4.0 * std::f64::consts::PI * (1.0 + g * g - 2.0 * g * mu).powf(1.5));
+    for mu in [-1.0, -0.3, 0.5, 1.0] {
+        let expected = 0.75 * hg(0.8, mu) + 0.25 * hg(-0.3, mu);
+        assert!((f64::from(at((1.0 - mu as f32) / 2.0)) / expected - 1.0).abs() < 1e-5, "mu {mu}");
+    }
+    assert_eq!(layout::Phase::from(&Phase::Rayleigh).lobes[1], layout::Lobe { rho: 1.0, ..Default::default() });
 }
 
 #[test]
@@ -175,7 +201,8 @@ fn overrides_replace_and_add() {
     ];
     let scene = read_with(&text, &overrides).unwrap_or_else(|e| panic!("{}", render_text(&e, false)));
     let medium: layout::Medium = view(&scene, "medium");
-    assert_eq!((medium.extinction, medium.phase, medium.g1), ([1.0, 2.0, 3.0], 3, 0.25));
+    assert_eq!(medium.extinction, [1.0, 2.0, 3.0]);
+    assert_eq!(view::<layout::Phase>(&scene, "phase"), layout::Phase::from(&Phase::Schlick { k: 0.25 }));
     assert_eq!(items::<layout::Light>(&scene, "lights")[0].intensity, [9.0, 7.0, 9.0]);
     assert_eq!(items::<layout::Material>(&scene, "materials")[0].diffuse, [0.1, 0.2, 0.3]);
     assert!((scene.bounds(0.0).expect("a sphere").max.x - 2.0).abs() < 1e-3);

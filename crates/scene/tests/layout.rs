@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::mem::{offset_of, size_of};
 
 use naga::{Module, TypeInner};
-use tyndall_scene::layout::{Background, Camera, Header, Light, Material, Medium, Object, Texture, Vertex};
+use tyndall_scene::layout::{
+    Background, Camera, Header, Light, Lobe, Material, Medium, Object, Phase, Texture, Vertex,
+};
 
 /// Offset of each member, and size, of each struct of the file.
 fn wgsl() -> BTreeMap<String, (Vec<(String, usize)>, usize)> {
@@ -35,7 +37,9 @@ macro_rules! same {
 fn structs_match_the_shader() {
     let structs = wgsl();
     same!(structs, Camera { position, padding, right, pad0, up, pad1, forward, pad2 });
-    same!(structs, Medium { extinction, phase, scattering, g1, g2, weight, rho1, rho2 });
+    same!(structs, Medium { extinction, pad0, scattering, pad1 });
+    same!(structs, Lobe { rho, scale, squared, mu_squared });
+    same!(structs, Phase { legendre, lobe_count, pad0, pad1, pad2, lobes });
     same!(structs, Light { position, kind, intensity, radius, direction, exponent, cos_cutoff, pad0, pad1, pad2 });
     same!(structs, Vertex { position, u, normal, v });
     same!(structs, Object { material, casts_shadow, pad0, pad1 });
@@ -62,12 +66,6 @@ fn constants_match_the_shader() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shaders/scene.wgsl");
     let source = std::fs::read_to_string(path).expect("shaders/scene.wgsl");
     for constant in [
-        "ISOTROPIC: u32 = 0u",
-        "HENYEY_GREENSTEIN: u32 = 1u",
-        "DOUBLE_HENYEY_GREENSTEIN: u32 = 2u",
-        "SCHLICK: u32 = 3u",
-        "RAYLEIGH: u32 = 4u",
-        "CORNETTE_SHANKS: u32 = 5u",
         "POINT: u32 = 0u",
         "SPOT: u32 = 1u",
         "DIRECTIONAL: u32 = 2u",

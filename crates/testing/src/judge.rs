@@ -16,7 +16,7 @@ use crate::outcome::{Check, GOLDEN, Outcome, PortOutcome, State};
 use crate::picture::Picture;
 use crate::property;
 use crate::run::{Ready, find};
-use crate::session::{Rendered, encode};
+use crate::session::{Rendered, moment};
 
 /// Holds ports against what a test says of them.
 pub(crate) struct Judge<'a> {
@@ -126,12 +126,13 @@ impl Judge<'_> {
             ParamSetting::Time => ParamValue::Float(f64::from(frame) / tyndall_gpu::FRAMES_PER_SECOND),
         };
         let params = descriptor.params.iter().zip(plan.params(position));
-        let encoded = encode(&self.ready.loaded, plan, frame);
+        let (time, aspect) = moment(plan, frame);
+        let scene = self.ready.loaded.scene.as_ref().map(|scene| scene.twin(time, aspect));
         let input = ReferenceInput {
             inputs: inputs.collect(),
             resources: resources.collect(),
             params: params.map(|(param, setting)| (param.name.as_str(), value(setting))).collect(),
-            scene: &|name| encoded.as_ref().map_or(&[], |encoded| encoded.bytes(name)),
+            scene: scene.as_ref(),
         };
         let mut outputs: BTreeMap<&str, Vec<f32>> = reference(&input)?;
         let port = &graph_port(self.ready, tapped).name;

@@ -310,14 +310,19 @@ fn read_all(
     Ok(rendered)
 }
 
+/// The time of a frame in seconds, and width over height.
+pub(crate) fn moment(plan: &Plan, frame: u32) -> (f64, f64) {
+    (f64::from(frame) / FRAMES_PER_SECOND, f64::from(plan.size.0) / f64::from(plan.size.1))
+}
+
 /// The scene's bytes in a frame.
-pub(crate) fn encode(loaded: &Loaded, plan: &Plan, frame: u32) -> Option<Encoded> {
-    let aspect = f64::from(plan.size.0) / f64::from(plan.size.1);
-    loaded.scene.as_ref().map(|scene| scene.encode(f64::from(frame) / FRAMES_PER_SECOND, aspect))
+fn encode(loaded: &Loaded, plan: &Plan, frame: u32) -> Option<Encoded> {
+    let (time, aspect) = moment(plan, frame);
+    loaded.scene.as_ref().map(|scene| scene.encode(time, aspect))
 }
 
 /// Nothing can be copied into a rasteriser's depth buffer, and whole numbers beyond 24 bits would lose some.
-pub(crate) fn can_be_given(resource: &Resource) -> bool {
+fn can_be_given(resource: &Resource) -> bool {
     match resource {
         Resource::Texture { dimension: Dimension::D2 | Dimension::D2Array | Dimension::D3, format, .. } => {
             !matches!(format, Format::Depth32Float | Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint)

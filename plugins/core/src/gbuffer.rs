@@ -65,6 +65,7 @@ fn descriptor() -> PassDescriptor {
             ),
         ],
         params: Vec::new(),
+        presets: Vec::new(),
         scene: ["camera", "materials", "objects", "texels", "textures", "triangles", "vertices"]
             .map(str::to_owned)
             .into(),

@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 use tyndall_document::{Decoder, Node, Value};
+use tyndall_shaders::scene::Phase;
 
 use super::values::{Range, number, vector};
 use super::{given, parts_of};
 use crate::model::Medium;
-use crate::phase::Phase;
 
 pub(super) fn medium(decoder: &mut Decoder, node: &Node) -> Option<Medium> {
     let fields = decoder.fields(node, "a medium", &["extinction", "albedo", "phase"])?;
