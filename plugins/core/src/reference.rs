@@ -77,7 +77,9 @@ pub(crate) fn compose(input: &ReferenceInput<'_>) -> Outputs {
 /// Exposure, tone curve, sRGB; in steps of 1/255.
 pub(crate) fn tonemap(input: &ReferenceInput<'_>) -> Outputs {
     let (radiance, exposure) = (input.input("radiance")?, input.number("exposure")?);
-    let Some(ParamValue::Choice(curve)) = input.params.get("curve") else { return Err("`curve` is no word".to_owned()) };
+    let Some(ParamValue::Choice(curve)) = input.params.get("curve") else {
+        return Err("`curve` is no word".to_owned());
+    };
     let hable = |x: f64| (x * (0.15 * x + 0.05) + 0.004) / (x * (0.15 * x + 0.50) + 0.06) - 0.02 / 0.30;
     let tone = |x: f64| match curve.as_str() {
         "reinhard" => x / (1.0 + x),

@@ -54,9 +54,11 @@ struct Surface {
 /// A texel of a layer; channels that are not there are 0.
 fn texel(data: &PortData, layer: u32, x: u32, y: u32) -> [f64; 4] {
     let at = (((layer * data.height + y) * data.width + x) * data.channels) as usize;
-    std::array::from_fn(|channel| {
-        if channel < data.channels as usize { f64::from(data.data[at + channel]) } else { 0.0 }
-    })
+    std::array::from_fn(
+        |channel| {
+            if channel < data.channels as usize { f64::from(data.data[at + channel]) } else { 0.0 }
+        },
+    )
 }
 
 fn reflected(scene: &Scene, pixel: [u32; 2], size: [u32; 2], surface: &Surface) -> [f64; 3] {
