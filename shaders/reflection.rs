@@ -188,7 +188,8 @@ pub fn scattered_from_all_around(light: &Light, medium: &Medium, surface: &Surfa
         if factor == DVec3::ZERO {
             return DVec3::ZERO;
         }
-        let around = |direction| airlight(light, medium, &Ray { origin: surface.position, direction }, 0.0, f64::INFINITY);
+        let around =
+            |direction| airlight(light, medium, &Ray { origin: surface.position, direction }, 0.0, f64::INFINITY);
         factor * lobe_of_directions(n, axis, to_light, around)
     };
     lobe(surface.diffuse / PI, 1.0, surface.normal) + lobe(surface.specular, surface.shininess, surface.mirrored)

@@ -4,7 +4,9 @@ use std::f64::consts::PI;
 
 use glam::{DQuat, DVec3};
 use serde_json::Value;
-use tyndall_shaders::reflection::{Field, Surface, direct, reflected, scattered, scattered_from_all_around, sun_convolution};
+use tyndall_shaders::reflection::{
+    Field, Surface, direct, reflected, scattered, scattered_from_all_around, sun_convolution,
+};
 use tyndall_shaders::scene::{Light, Medium, Phase};
 
 const G: Phase = Phase::HenyeyGreenstein { g: 0.7 };
@@ -45,10 +47,16 @@ fn close(a: DVec3, b: DVec3, tolerance: f64) -> bool {
 fn convolutions_are_those_of_the_reference() {
     let data: Value = serde_json::from_str(include_str!("data/scattered.json")).expect("the file is JSON");
     let number = |value: &Value| value.as_f64().expect("a number");
-    let rows: Vec<Vec<f64>> =
-        data["rows"].as_array().expect("rows").iter().map(|row| row.as_array().expect("a row").iter().map(number).collect()).collect();
+    let rows: Vec<Vec<f64>> = data["rows"]
+        .as_array()
+        .expect("rows")
+        .iter()
+        .map(|row| row.as_array().expect("a row").iter().map(number).collect())
+        .collect();
     assert_eq!(rows.len(), 176);
-    for (column, kind) in [Phase::Isotropic, Phase::HenyeyGreenstein { g: 0.5 }, Phase::HenyeyGreenstein { g: 0.9 }].iter().enumerate() {
+    for (column, kind) in
+        [Phase::Isotropic, Phase::HenyeyGreenstein { g: 0.5 }, Phase::HenyeyGreenstein { g: 0.9 }].iter().enumerate()
+    {
         let mut field = (f64::NAN, Field::of_sun(kind));
         for row in &rows {
             let [n, depth, theta, expected] = [row[0], row[1], row[2].to_radians(), row[3 + column]];
@@ -65,7 +73,8 @@ fn convolutions_are_those_of_the_reference() {
 #[test]
 fn the_definition_gives_the_same() {
     for surface in [surface(0.7, 0.0, 1.0), surface(0.0, 0.3, 20.0), surface(0.0, 0.3, 400.0)] {
-        let (value, expected) = (scattered(&point(), &medium(), &surface), scattered_from_all_around(&point(), &medium(), &surface));
+        let (value, expected) =
+            (scattered(&point(), &medium(), &surface), scattered_from_all_around(&point(), &medium(), &surface));
         assert!(close(value, expected, 2e-3), "{surface:?}: {value} instead of {expected}");
     }
 }
@@ -116,7 +125,10 @@ fn linear_in_intensity_and_in_reflectance() {
     assert!(close(both, 2.0 * one + scattered(&point(), &medium(), &surface(0.0, 0.25, 9.0)), 1e-12));
     for light in [point(), sun()] {
         let surface = surface(0.5, 0.2, 9.0);
-        assert_eq!(reflected(&light, &medium(), &surface), direct(&light, &medium(), &surface) + scattered(&light, &medium(), &surface));
+        assert_eq!(
+            reflected(&light, &medium(), &surface),
+            direct(&light, &medium(), &surface) + scattered(&light, &medium(), &surface)
+        );
     }
 }
 
@@ -141,7 +153,8 @@ fn the_same_turned_and_at_every_scale() {
 #[test]
 fn limits() {
     let surface = surface(0.5, 0.2, 9.0);
-    let of = |extinction: f64| scattered(&point(), &Medium { extinction: DVec3::splat(extinction), ..medium() }, &surface);
+    let of =
+        |extinction: f64| scattered(&point(), &Medium { extinction: DVec3::splat(extinction), ..medium() }, &surface);
     assert_eq!(of(0.0), DVec3::ZERO);
     assert!(close(of(1e-7), 10.0 * of(1e-8), 1e-4));
     assert!(of(100.0).max_element() < 1e-100);

@@ -133,7 +133,9 @@ impl Graph {
     pub fn is_fed(&self, pass: u32, input: &str) -> bool {
         let ports = &self.pass(pass).descriptor().ports;
         let edges = self.passes.edges_directed(NodeIndex::new(pass as usize), Direction::Incoming);
-        edges.filter(|edge| self.passes[edge.source()].enabled).any(|edge| ports[edge.weight().to as usize].name == input)
+        edges
+            .filter(|edge| self.passes[edge.source()].enabled)
+            .any(|edge| ports[edge.weight().to as usize].name == input)
     }
 
     /// What the pass declares about this port.

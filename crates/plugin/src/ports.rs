@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use tyndall_document::{Decoder, Diagnostic, Diagnostics, Fields, Node, Source, Value, near};
+use tyndall_document::{Decoder, Diagnostic, Diagnostics, Node, Source, Value, near};
 use tyndall_graph::descriptor::{
     Class, Disabled, Extent, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role, SizeRule,
 };

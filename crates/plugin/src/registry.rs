@@ -14,7 +14,7 @@ use crate::codes::{BAD_DESCRIPTOR, DUPLICATE_PLUGIN, MISSING_SHADER};
 use crate::dispatch;
 use crate::folder::{Folder, MANIFEST, Origin};
 use crate::manifest::{self, Manifest, ManifestPass, Version};
-use crate::pass::{MakeProgram, Plugin, RustPass, Shaders};
+use crate::pass::{MakeProgram, Plugin, Reference, RustPass, Shaders};
 use crate::ports::{self, Need};
 
 /// Every pass of every plugin.
@@ -38,6 +38,8 @@ pub struct RegistryPass {
     pub needs: Vec<Need>,
     /// Of its linked shaders.
     pub fingerprint: u64,
+    /// What it computes, on the CPU, where its plugin says.
+    pub reference: Option<Reference>,
     shaders: Shaders,
     make: Make,
 }
@@ -70,6 +72,11 @@ impl Registry {
             };
             if let Some((manifest, folder)) = entry {
                 builder.plugin(&manifest, &folder, plugin.passes);
+            }
+            for (pass, reference) in plugin.references {
+                if let Some(pass) = builder.registry.passes.get_mut(&pass) {
+                    pass.reference = Some(reference);
+                }
             }
         }
         for (manifest, folder) in found {
@@ -263,6 +270,7 @@ impl Builder<'_> {
             origin: folder.origin.clone(),
             needs,
             fingerprint,
+            reference: None,
             shaders,
             make,
         };

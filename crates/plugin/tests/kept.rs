@@ -129,7 +129,8 @@ fn tables_of_scattered_light_run_again_for_the_phase_function_alone() {
     let moved = "Point(position: (1.0, 2.0, 1.0), intensity: (7.0, 5.0, 5.0))";
     assert_ne!(first, frame("forward", 1.0, moved, [0, 0, 0, 1], "another place of a light"));
     assert_ne!(first, frame("rayleigh", 1.0, lamp, [0, 1, 1, 1], "another phase function"));
-    let spot = "Spot(position: (0.0, 3.0, 1.0), intensity: (5.0, 5.0, 5.0), direction: (0.0, -1.0, 0.0), exponent: 2.0)";
+    let spot =
+        "Spot(position: (0.0, 3.0, 1.0), intensity: (5.0, 5.0, 5.0), direction: (0.0, -1.0, 0.0), exponent: 2.0)";
     frame("rayleigh", 1.0, spot, [0, 0, 1, 1], "another shape of lobe");
 }
 

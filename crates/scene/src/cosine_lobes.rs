@@ -136,7 +136,8 @@ mod tests {
 
     #[test]
     fn of_more_the_nearest_is_taken() {
-        let mut materials: Vec<Material> = (0..200).map(|i| material(0.1, 1000f64.powf(f64::from(i) / 199.0))).collect();
+        let mut materials: Vec<Material> =
+            (0..200).map(|i| material(0.1, 1000f64.powf(f64::from(i) / 199.0))).collect();
         let lobes = CosineLobes::of(&materials, &[]);
         assert_eq!(lobes.items.len(), SHININESSES_MAX);
         for material in &materials {

@@ -124,7 +124,13 @@ fn surfaces_lit_by_scattered_light_agree_with_the_reference() {
         assert!(errors.p99 <= SCATTERED_P99 && errors.max <= SCATTERED_MAX, "{graph}: {errors:?}");
     }
     let fails = |what: &str, set: &str| {
-        let errors = Samples::of("ground_phong", "scattered").errors(&render(&desk, "fog", "ground_phong", "surface", &["direct=false", set]));
+        let errors = Samples::of("ground_phong", "scattered").errors(&render(
+            &desk,
+            "fog",
+            "ground_phong",
+            "surface",
+            &["direct=false", set],
+        ));
         assert!(errors.p99 > SCATTERED_P99, "{what} passes: {errors:?}");
     };
     fails("g of 0.53 for 0.5", "scene.medium.phase=HenyeyGreenstein(0.53)");

@@ -12,6 +12,7 @@ mod contributing;
 mod exit_codes;
 mod froxels;
 mod fuzz;
+mod image_tests;
 mod outputs;
 mod physics;
 mod pictures;

@@ -26,7 +26,10 @@ const PHASES: [(&str, Phase); 10] = [
     ("HenyeyGreenstein(g: 0.9)", Phase::HenyeyGreenstein { g: 0.9 }),
     ("Schlick(k: 0.8)", Phase::Schlick { k: 0.8 }),
     ("CornetteShanks(g: 0.6)", Phase::CornetteShanks { g: 0.6 }),
-    ("DoubleHenyeyGreenstein(g1: 0.85, g2: -0.3, f: 0.2)", Phase::DoubleHenyeyGreenstein { g1: 0.85, g2: -0.3, f: 0.2 }),
+    (
+        "DoubleHenyeyGreenstein(g1: 0.85, g2: -0.3, f: 0.2)",
+        Phase::DoubleHenyeyGreenstein { g1: 0.85, g2: -0.3, f: 0.2 },
+    ),
 ];
 
 /// 1/m, of the three channels; what f32 holds.
@@ -35,17 +38,23 @@ const ALBEDO: [f64; 3] = [0.75, 1.0, 0.5];
 
 /// Distances, m, for optical depths from 1e-3 to 10 in each channel; the last light is a directional one.
 fn distances() -> Vec<f64> {
-    (0..LIGHTS - 1).map(|i| f64::from((1e-3f64 / 0.03125 * 10f64.powf(4.0 * i as f64 / (LIGHTS - 2) as f64)) as f32)).collect()
+    (0..LIGHTS - 1)
+        .map(|i| f64::from((1e-3f64 / 0.03125 * 10f64.powf(4.0 * i as f64 / (LIGHTS - 2) as f64)) as f32))
+        .collect()
 }
 
 fn lights() -> String {
-    let points = distances().into_iter().map(|d| format!("Point(position: (0.0, {d}, 0.0), intensity: (1.0, 1.0, 1.0)),"));
+    let points =
+        distances().into_iter().map(|d| format!("Point(position: (0.0, {d}, 0.0), intensity: (1.0, 1.0, 1.0)),"));
     let sun = "Directional(direction: (0.0, -1.0, 0.0), irradiance: (1.0, 1.0, 1.0)),".to_owned();
     points.chain([sun]).collect()
 }
 
 fn materials() -> String {
-    SHININESSES[1..].iter().map(|n| format!("(mesh: Plane(size: (1.0, 1.0)), material: (specular: (1.0, 1.0, 1.0), shininess: {n:?})),")).collect()
+    SHININESSES[1..]
+        .iter()
+        .map(|n| format!("(mesh: Plane(size: (1.0, 1.0)), material: (specular: (1.0, 1.0, 1.0), shininess: {n:?})),"))
+        .collect()
 }
 
 fn medium() -> String {
@@ -123,7 +132,10 @@ fn energy_is_kept() {
                 let at = |j: usize| pictures[lobe][i][j][channel] * angle(j).sin() / 2.0;
                 let mean: f64 = (1..ANGLES).map(|j| 0.5 * (at(j) + at(j - 1)) * (angle(j) - angle(j - 1))).sum();
                 let share = if lobe == 0 { 1.0 } else { 2.0 * PI / (n + 1.0) };
-                assert!((mean / (incoming * share) - 1.0).abs() < 0.02, "n {n}, {d} m: {mean:e}, {incoming:e} times {share}");
+                assert!(
+                    (mean / (incoming * share) - 1.0).abs() < 0.02,
+                    "n {n}, {d} m: {mean:e}, {incoming:e} times {share}"
+                );
             }
         }
     }
@@ -151,7 +163,10 @@ fn linear_in_intensity_and_the_same_at_every_scale() {
                 for channel in 0..3 {
                     let of = |pictures: &desk::Pictures| pictures[lobe][light][j][channel];
                     assert_eq!(of(&four), 4.0 * of(&one));
-                    assert!((64.0 * of(&large) - of(&one)).abs() <= 1e-4 * of(&one) + 1e-6 * pictures_peak(&one[lobe][light], channel));
+                    assert!(
+                        (64.0 * of(&large) - of(&one)).abs()
+                            <= 1e-4 * of(&one) + 1e-6 * pictures_peak(&one[lobe][light], channel)
+                    );
                 }
             }
         }
@@ -211,29 +226,52 @@ fn spots() {
             let turned = |degrees: f64| DVec3::new(degrees.to_radians().sin(), -degrees.to_radians().cos(), 0.0);
             let direction = turned(past).as_vec3().as_dvec3();
             let light = Light::Spot {
-                position: DVec3::new(0.0, d, 0.0), intensity: DVec3::ONE, radius: 0.0, direction, exponent, cutoff,
+                position: DVec3::new(0.0, d, 0.0),
+                intensity: DVec3::ONE,
+                radius: 0.0,
+                direction,
+                exponent,
+                cutoff,
             };
             let text = format!(
                 "Spot(position: (0.0, {d}, 0.0), direction: {}, intensity: (1.0, 1.0, 1.0), exponent: {exponent:?}, cutoff: {cutoff:?}),",
                 vector(direction.to_array())
             );
-            let found = desk.draw(&text.repeat(LIGHTS), &materials(), "extinction: (0.0625, 0.0625, 0.0625), phase: HenyeyGreenstein(g: 0.5)");
+            let found = desk.draw(
+                &text.repeat(LIGHTS),
+                &materials(),
+                "extinction: (0.0625, 0.0625, 0.0625), phase: HenyeyGreenstein(g: 0.5)",
+            );
             let medium = Medium { extinction: DVec3::splat(0.0625), albedo: DVec3::ONE, phase: kind };
             let mut errors = [0.0_f64; 2];
             for (term, lobe) in [(0, 0), (1, 3)] {
                 let angles: Vec<usize> = (0..ANGLES).step_by(3).collect();
-                let truth: Vec<f64> = angles.iter().map(|j| {
-                    let axis = desk::turned(DVec3::Y, angle(*j));
-                    let (diffuse, specular) = if term == 0 { (DVec3::X, DVec3::ZERO) } else { (DVec3::ZERO, DVec3::X) };
-                    let surface = Surface { position: DVec3::ZERO, normal: axis, mirrored: axis, diffuse, specular, shininess: SHININESSES[lobe] };
-                    scattered_from_all_around(&light, &medium, &surface).x
-                }).collect();
+                let truth: Vec<f64> = angles
+                    .iter()
+                    .map(|j| {
+                        let axis = desk::turned(DVec3::Y, angle(*j));
+                        let (diffuse, specular) =
+                            if term == 0 { (DVec3::X, DVec3::ZERO) } else { (DVec3::ZERO, DVec3::X) };
+                        let surface = Surface {
+                            position: DVec3::ZERO,
+                            normal: axis,
+                            mirrored: axis,
+                            diffuse,
+                            specular,
+                            shininess: SHININESSES[lobe],
+                        };
+                        scattered_from_all_around(&light, &medium, &surface).x
+                    })
+                    .collect();
                 let peak = truth.iter().copied().fold(0.0, f64::max);
                 for (j, expected) in angles.iter().zip(&truth) {
                     errors[term] = errors[term].max((found[lobe][0][*j][0] - expected).abs() / peak);
                 }
             }
-            println!("cos^{exponent} in {cutoff} degrees, {past} degrees past, {d} m: Lambert {:.3}, n = 20 {:.3}", errors[0], errors[1]);
+            println!(
+                "cos^{exponent} in {cutoff} degrees, {past} degrees past, {d} m: Lambert {:.3}, n = 20 {:.3}",
+                errors[0], errors[1]
+            );
             worst_of_all = worst_of_all.max(errors[0]).max(errors[1]);
         }
     }
