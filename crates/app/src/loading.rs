@@ -8,8 +8,8 @@ use std::time::Instant;
 use tyndall_document::{Code, Diagnostic, Diagnostics, Place, Source, render_text};
 use tyndall_graph::descriptor::ParamValue;
 use tyndall_graph::{Graph, Keep, Override, Overrides, ParamSetting, Plan, PlanOptions, Roots};
-use tyndall_plugin::Registry;
-use tyndall_scene::Scene;
+use tyndall_plugin::{Registry, SceneFeature};
+use tyndall_scene::{Scene, model::LightKind};
 
 use crate::cli::GraphArguments;
 use crate::failure::Failure;
@@ -19,6 +19,9 @@ use crate::terminal;
 pub(crate) const NO_SCENE: Code = Code("no-scene");
 /// A parameter asks for something that is not built.
 pub(crate) const NOT_BUILT: Code = Code("not-built");
+
+/// The scene has something that a pass does not do justice to.
+pub(crate) const LIMIT: Code = Code("limit");
 
 /// A graph and its scene, checked.
 pub(crate) struct Loaded {
@@ -66,6 +69,9 @@ pub(crate) fn try_load(arguments: &GraphArguments, registry: &Registry, out: &mu
     let validate_us = start.elapsed().as_secs_f64() * 1e6;
     let graph = graph?;
     let scene = load_scene(arguments, &graph, &scene_overrides, out)?;
+    if let Some(scene) = &scene {
+        warn_of_limits(&graph, registry, scene, out);
+    }
     Some(Loaded { graph, scene, load_us, validate_us })
 }
 
@@ -133,6 +139,29 @@ fn warn_of_unbuilt(graph: &Graph, registry: &Registry, out: &mut Diagnostics) {
                 let message = format!("`{}` of pass `{}`: {}", param.name, pass.name, notice.text);
                 out.push(Diagnostic::warning(NOT_BUILT, graph.place(pass.span), message));
             }
+        }
+    }
+}
+
+/// Warns where a pass says that it does not do justice to something that the scene has.
+fn warn_of_limits(graph: &Graph, registry: &Registry, scene: &Scene, out: &mut Diagnostics) {
+    for pass in graph.passes.node_weights().filter(|pass| pass.enabled) {
+        let Some(registered) = registry.pass(&pass.descriptor().name) else { continue };
+        for limit in registered.limits.iter().filter(|limit| has(scene, limit.feature)) {
+            let message = format!("pass `{}`: {}", pass.name, limit.text);
+            out.push(Diagnostic::warning(LIMIT, graph.place(pass.span), message));
+        }
+    }
+}
+
+fn has(scene: &Scene, feature: SceneFeature) -> bool {
+    match feature {
+        SceneFeature::Spot => scene.lights.iter().any(|light| matches!(light.kind, LightKind::Spot { .. })),
+        SceneFeature::Directional => scene.lights.iter().any(|light| light.kind == LightKind::Directional),
+        SceneFeature::SeveralShininesses => {
+            let mut shiny = scene.materials.iter().filter(|material| material.specular.max_element() > 0.0);
+            let first = shiny.next().map(|material| material.shininess);
+            shiny.any(|material| Some(material.shininess) != first)
         }
     }
 }

@@ -13,6 +13,7 @@ use tyndall_shader::{Library, check_all, link};
 use crate::codes::{BAD_DESCRIPTOR, DUPLICATE_PLUGIN, MISSING_SHADER};
 use crate::dispatch;
 use crate::folder::{Folder, MANIFEST, Origin};
+use crate::limits::Limit;
 use crate::manifest::{self, Manifest, ManifestPass, Version};
 use crate::pass::{MakeProgram, Plugin, RustPass, Shaders};
 use crate::ports::{self, Notice};
@@ -36,6 +37,8 @@ pub struct RegistryPass {
     pub origin: Origin,
     /// Switches whose work is not built yet.
     pub notices: Vec<Notice>,
+    /// What it does not do justice to.
+    pub limits: Vec<Limit>,
     /// Of its linked shaders.
     pub fingerprint: u64,
     shaders: Shaders,
@@ -128,6 +131,7 @@ struct Candidate {
     shaders: Shaders,
     make: Make,
     notices: Vec<Notice>,
+    limits: Vec<Limit>,
 }
 
 /// Collects passes and mistakes.
@@ -200,14 +204,15 @@ impl Builder<'_> {
         };
         let make = Make::Dispatch { file: pass.shader.clone(), over };
         let place = manifest.source.place(pass.name_span);
-        self.insert(manifest, folder, Candidate { descriptor, shaders, make, notices: ports::notices(pass) }, &place);
+        let (notices, limits) = (ports::notices(pass), pass.limits.clone());
+        self.insert(manifest, folder, Candidate { descriptor, shaders, make, notices, limits }, &place);
     }
 
     fn rust_pass(&mut self, manifest: &Manifest, folder: &Folder, library: &Library, pass: RustPass) {
         let place = Place::File(manifest.source.name().to_owned());
         let Some(shaders) = self.link(folder, library, &pass.shaders, &place) else { return };
         let make = Make::Rust(pass.make);
-        let candidate = Candidate { descriptor: pass.descriptor, shaders, make, notices: Vec::new() };
+        let candidate = Candidate { descriptor: pass.descriptor, shaders, make, notices: Vec::new(), limits: Vec::new() };
         self.insert(manifest, folder, candidate, &place);
     }
 
@@ -237,7 +242,7 @@ impl Builder<'_> {
 
     /// Holds a pass against its shaders, and registers it where they agree.
     fn insert(&mut self, manifest: &Manifest, folder: &Folder, candidate: Candidate, place: &Place) {
-        let Candidate { descriptor, shaders, make, notices } = candidate;
+        let Candidate { descriptor, shaders, make, notices, limits } = candidate;
         let linked: Vec<_> = shaders.0.values().map(AsRef::as_ref).collect();
         if !linked.is_empty() {
             let mut built = descriptor.clone();
@@ -262,6 +267,7 @@ impl Builder<'_> {
             plugin_about: manifest.about.clone(),
             origin: folder.origin.clone(),
             notices,
+            limits,
             fingerprint,
             shaders,
             make,
