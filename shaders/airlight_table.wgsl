@@ -59,7 +59,7 @@ struct TauNodes {
     step: f32,
 }
 
-const TAU_NODES: u32 = 48u;
+const TAU_NODES: u32 = 64u;
 const TAU_LEFT_OUT: f32 = 1e-6;
 const TAU_ENDLESS: f32 = 1e30;
 

@@ -32,8 +32,9 @@ const LOBE_LEFT_OUT: f32 = 16.0;
 
 // Nodes over gamma, of each of two pieces for broad lobes, whose K has a kink where the way runs in the surface; of one
 // for sharp lobes.
-const GAMMA_NODES: u32 = 40u;
+const GAMMA_NODES: u32 = 48u;
 const SHARP: f32 = 8.0;
+const GAMMA_REACH: f32 = 11.0;  // of s, at an end: e^-11 of the piece is left out there
 
 fn gamma_nodes(n: f32) -> u32 {
     return select(2u * GAMMA_NODES, GAMMA_NODES, n >= SHARP);
@@ -89,8 +90,8 @@ fn ring_of_lobe(place: SurfacePlace, n: f32, width: f32, i: u32) -> Ring {
     let length = max(select(high, kink, broad && first) - start, 1e-6);
     // gamma = start + length/(1 + e^-s), in equal steps of s; what comes from beside the light changes on the scale of
     // the phase function's lobe
-    let least = select(-9.0, log(TAU_LEFT_OUT * min(1.0, width / length)), start == 0.0);
-    let step = (9.0 - least) / f32(GAMMA_NODES);
+    let least = select(-GAMMA_REACH, log(TAU_LEFT_OUT * min(1.0, width / length)), start == 0.0);
+    let step = (GAMMA_REACH - least) / f32(GAMMA_NODES);
     let e = exp(-(least + (f32(i % GAMMA_NODES) + 0.5) * step));
     let share = 1.0 / (1.0 + e);
     let gamma = start + length * share;

@@ -16,11 +16,8 @@ pub enum SceneFeature {
 }
 
 impl SceneFeature {
-    const NAMED: [(&str, Self); 3] = [
-        ("Spot", Self::Spot),
-        ("Directional", Self::Directional),
-        ("SeveralShininesses", Self::SeveralShininesses),
-    ];
+    const NAMED: [(&str, Self); 3] =
+        [("Spot", Self::Spot), ("Directional", Self::Directional), ("SeveralShininesses", Self::SeveralShininesses)];
 }
 
 /// What a pass does instead, where the scene has such a thing.

@@ -212,7 +212,8 @@ impl Builder<'_> {
         let place = Place::File(manifest.source.name().to_owned());
         let Some(shaders) = self.link(folder, library, &pass.shaders, &place) else { return };
         let make = Make::Rust(pass.make);
-        let candidate = Candidate { descriptor: pass.descriptor, shaders, make, notices: Vec::new(), limits: Vec::new() };
+        let candidate =
+            Candidate { descriptor: pass.descriptor, shaders, make, notices: Vec::new(), limits: Vec::new() };
         self.insert(manifest, folder, candidate, &place);
     }
 

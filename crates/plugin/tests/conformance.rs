@@ -111,7 +111,8 @@ fn is_in_range(param: &ParamDescriptor) -> bool {
     }
 }
 
-/// The pass as `tested`, all its inputs fed: from a geometry buffer's port of the same name, or else with a colour.
+/// The pass as `tested`, all its inputs fed: from a geometry buffer's port of the same name, a table, or else with a
+/// colour.
 fn graph(descriptor: &PassDescriptor, picture: &Path) -> String {
     let inputs: Vec<String> =
         descriptor.inputs().map(|port| format!("\"{}\": \"{}\"", port.name, source(port))).collect();
@@ -121,6 +122,7 @@ fn graph(descriptor: &PassDescriptor, picture: &Path) -> String {
         "(version: 1, size: (4, 3), passes: {{
             \"surfaces\": (use: \"core.gbuffer\"),
             \"colour\": (use: \"core.constant\", params: {{ \"value\": (0.1, 2.0, 30.0) }}),
+            \"terms\": (use: \"airlight.h_k\", params: {{ \"size\": 4 }}),
             \"tested\": (use: \"{}\", inputs: {{ {} }}, params: {{ {} }}),
         }}, outputs: {{ \"one\": \"tested.{}\" }})",
         descriptor.name,
@@ -134,6 +136,7 @@ fn source(port: &PortDescriptor) -> String {
     assert!(!matches!(port.role, Role::History(_)), "feed the history of {}", port.name);
     match port.name.as_str() {
         "depth" | "normal" | "material" | "triangle" => format!("surfaces.{}", port.name),
+        _ if matches!(port.kind, PortKind::Texture { class: Class::Data, .. }) => "terms.table".to_owned(),
         _ => "colour.color".to_owned(),
     }
 }

@@ -4,5 +4,8 @@ use tyndall_plugin::{Plugin, folder};
 
 /// The plugin.
 pub fn plugin() -> Plugin {
-    Plugin::new("airlight", folder!("airlight": "plugin.ron", "h.wgsl", "h_k.wgsl", "homogeneous.wgsl", "legendre.wgsl", "lookup.wgsl", "table.wgsl"))
+    Plugin::new(
+        "airlight",
+        folder!("airlight": "plugin.ron", "h.wgsl", "h_k.wgsl", "homogeneous.wgsl", "legendre.wgsl", "lookup.wgsl", "table.wgsl"),
+    )
 }

@@ -9,6 +9,7 @@ mod check;
 mod contributing;
 mod exit_codes;
 mod fuzz;
+mod modes;
 mod outputs;
 mod physics;
 mod pictures;
