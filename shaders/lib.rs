@@ -13,6 +13,7 @@ pub mod medium;
 pub mod phase;
 pub mod quadrature;
 pub mod ray;
+pub mod reflection;
 pub mod scene;
 pub mod surface_table;
 
@@ -27,6 +28,7 @@ pub const MODULES: &[(&str, &str)] = &[
     ("phase", include_str!("phase.wgsl")),
     ("quadrature", include_str!("quadrature.wgsl")),
     ("ray", include_str!("ray.wgsl")),
+    ("reflection", include_str!("reflection.wgsl")),
     ("scene", include_str!("scene.wgsl")),
     ("surface_table", include_str!("surface_table.wgsl")),
 ];

@@ -15,6 +15,7 @@ mod limits;
 mod manifest;
 mod pass;
 mod ports;
+mod presets;
 mod registry;
 mod search;
 
@@ -23,7 +24,7 @@ pub use folder::{Folder, Origin};
 pub use limits::{Limit, SceneFeature};
 pub use manifest::Version;
 pub use pass::{Plugin, RustPass, Shaders};
-pub use ports::Notice;
+pub use ports::Need;
 pub use registry::{Registry, RegistryPass};
 pub use search::{SearchPath, find_folders, shader_modules};
 

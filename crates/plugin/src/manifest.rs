@@ -54,6 +54,7 @@ pub(crate) struct ManifestPass {
     pub limits: Vec<Limit>,
     pub ports: Vec<Entry>,
     pub params: Vec<Entry>,
+    pub presets: Vec<Entry>,
 }
 
 /// A named entry of a map.
@@ -108,7 +109,7 @@ fn version(decoder: &mut Decoder<'_>, node: &Node) -> Option<Version> {
 }
 
 fn pass(decoder: &mut Decoder<'_>, entry: Entry) -> Option<ManifestPass> {
-    let known = ["about", "source", "shader", "dispatch", "limits", "ports", "params"];
+    let known = ["about", "source", "shader", "dispatch", "limits", "ports", "params", "presets"];
     let fields = decoder.fields(&entry.value, "a pass", &known)?;
     let text = |decoder: &mut Decoder<'_>, name: &str| {
         fields.get(name).and_then(|node| decoder.text(node)).unwrap_or_default().to_owned()
@@ -128,6 +129,7 @@ fn pass(decoder: &mut Decoder<'_>, entry: Entry) -> Option<ManifestPass> {
     let limits = fields.get("limits").map(|node| limits::limits(decoder, node)).unwrap_or_default();
     let ports = entries(decoder, fields.get("ports"));
     let params = entries(decoder, fields.get("params"));
+    let presets = entries(decoder, fields.get("presets"));
     let (about, shader) = (about?, shader?);
     let pass = ManifestPass {
         name: entry.name,
@@ -140,6 +142,7 @@ fn pass(decoder: &mut Decoder<'_>, entry: Entry) -> Option<ManifestPass> {
         limits,
         ports,
         params,
+        presets,
     };
     valid.then_some(pass)
 }

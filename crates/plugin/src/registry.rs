@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use tyndall_document::{Diagnostic, Diagnostics, Place, near};
 use tyndall_gpu::{GpuError, Program, Programs, Setup};
-use tyndall_graph::descriptor::PassDescriptor;
+use tyndall_graph::descriptor::{PRESET, PassDescriptor};
 use tyndall_graph::{Catalogue, PictureSize};
 use tyndall_shader::{Library, check_all, link};
 
@@ -16,7 +16,7 @@ use crate::folder::{Folder, MANIFEST, Origin};
 use crate::limits::Limit;
 use crate::manifest::{self, Manifest, ManifestPass, Version};
 use crate::pass::{MakeProgram, Plugin, RustPass, Shaders};
-use crate::ports::{self, Notice};
+use crate::ports::{self, Need};
 
 /// Every pass of every plugin.
 #[derive(Default)]
@@ -35,8 +35,8 @@ pub struct RegistryPass {
     pub plugin_about: String,
     /// Where its plugin's files come from.
     pub origin: Origin,
-    /// Switches whose work is not built yet.
-    pub notices: Vec<Notice>,
+    /// Switches that do nothing where an optional input is not fed.
+    pub needs: Vec<Need>,
     /// What it does not do justice to.
     pub limits: Vec<Limit>,
     /// Of its linked shaders.
@@ -130,7 +130,7 @@ struct Candidate {
     descriptor: PassDescriptor,
     shaders: Shaders,
     make: Make,
-    notices: Vec<Notice>,
+    needs: Vec<Need>,
     limits: Vec<Limit>,
 }
 
@@ -204,16 +204,15 @@ impl Builder<'_> {
         };
         let make = Make::Dispatch { file: pass.shader.clone(), over };
         let place = manifest.source.place(pass.name_span);
-        let (notices, limits) = (ports::notices(pass), pass.limits.clone());
-        self.insert(manifest, folder, Candidate { descriptor, shaders, make, notices, limits }, &place);
+        let (needs, limits) = (ports::needs(pass), pass.limits.clone());
+        self.insert(manifest, folder, Candidate { descriptor, shaders, make, needs, limits }, &place);
     }
 
     fn rust_pass(&mut self, manifest: &Manifest, folder: &Folder, library: &Library, pass: RustPass) {
         let place = Place::File(manifest.source.name().to_owned());
         let Some(shaders) = self.link(folder, library, &pass.shaders, &place) else { return };
         let make = Make::Rust(pass.make);
-        let candidate =
-            Candidate { descriptor: pass.descriptor, shaders, make, notices: Vec::new(), limits: Vec::new() };
+        let candidate = Candidate { descriptor: pass.descriptor, shaders, make, needs: Vec::new(), limits: Vec::new() };
         self.insert(manifest, folder, candidate, &place);
     }
 
@@ -243,11 +242,11 @@ impl Builder<'_> {
 
     /// Holds a pass against its shaders, and registers it where they agree.
     fn insert(&mut self, manifest: &Manifest, folder: &Folder, candidate: Candidate, place: &Place) {
-        let Candidate { descriptor, shaders, make, notices, limits } = candidate;
+        let Candidate { descriptor, shaders, make, needs, limits } = candidate;
         let linked: Vec<_> = shaders.0.values().map(AsRef::as_ref).collect();
         if !linked.is_empty() {
             let mut built = descriptor.clone();
-            built.params.retain(|param| notices.iter().all(|notice| notice.param != param.name));
+            built.params.retain(|param| param.name != PRESET || built.presets.is_empty());
             let problems = check_all(&linked, &built, self.scene_names, &[]);
             if !problems.is_empty() {
                 self.out.extend(problems);
@@ -267,7 +266,7 @@ impl Builder<'_> {
             version: manifest.version,
             plugin_about: manifest.about.clone(),
             origin: folder.origin.clone(),
-            notices,
+            needs,
             limits,
             fingerprint,
             shaders,

@@ -4,10 +4,9 @@ use tyndall_plugin::{Plugin, folder};
 
 /// The plugin.
 pub fn plugin() -> Plugin {
-    Plugin::new(
-        "surface_radiance",
-        folder!(
-            "surface_radiance": "plugin.ron", "j.wgsl", "j_k.wgsl", "j_texel.wgsl", "legendre.wgsl", "lookup.wgsl", "phong.wgsl", "table.wgsl"
-        ),
-    )
+    let files = folder!(
+        "surface_radiance": "plugin.ron", "j.wgsl", "j_k.wgsl", "j_texel.wgsl", "legendre.wgsl", "lobes.wgsl", "lookup.wgsl",
+        "phong.wgsl", "table.wgsl", "zonal.wgsl"
+    );
+    Plugin::new("surface_radiance", files)
 }

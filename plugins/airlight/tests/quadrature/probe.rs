@@ -1,12 +1,7 @@
 //! Runs the shared WGSL over a list of cases.
 
-use std::borrow::Cow;
-
-use tyndall_document::Source;
-use tyndall_plugin::wgpu;
+use tyndall_probe::Probe as Shader;
 use tyndall_scene::layout;
-use tyndall_shader::{Library, link};
-use tyndall_shaders::MODULES;
 use tyndall_shaders::scene::Light;
 
 use crate::cases::Case;
@@ -50,81 +45,17 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 ";
 
 /// The shader on a device.
-pub struct Probe {
-    device: wgpu::Device,
-    queue: wgpu::Queue,
-    pipeline: wgpu::ComputePipeline,
-    cases: u32,
-    results: u32,
-}
+pub struct Probe(Shader);
 
 impl Probe {
     pub fn new(nodes: u32) -> Self {
-        let instance = wgpu::Instance::default();
-        let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
-            .expect("a GPU driver answers: `cargo xtask test` installs one");
-        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default())).unwrap();
-
-        let mut library = Library::default();
-        for (name, text) in MODULES {
-            library.insert(name, Source::new(format!("{name}.wgsl"), *text));
-        }
-        let linked = link(&Source::new("probe.wgsl", SHADER), &library)
-            .unwrap_or_else(|problems| panic!("{}", tyndall_document::render_text(&problems, false)));
-        let binding = |name: &str| linked.resource(name).unwrap().binding;
-        let (cases, results) = (binding("cases"), binding("results"));
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("probe"),
-            source: wgpu::ShaderSource::Naga(Cow::Owned(linked.module)),
-        });
-        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some("probe"),
-            layout: None,
-            module: &module,
-            entry_point: Some("main"),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &[("nodes", f64::from(nodes))],
-                ..Default::default()
-            },
-            cache: None,
-        });
-        Self { device, queue, pipeline, cases, results }
+        Self(Shader::new(SHADER, &[], &[("nodes", f64::from(nodes))]))
     }
 
     /// Airlight of each case, W/(sr m²).
     pub fn run(&self, cases: &[Case]) -> Vec<[f32; 3]> {
         let bytes: Vec<u8> = cases.iter().flat_map(bytes).collect();
-        let input = self.buffer(bytes.len() as u64, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST);
-        self.queue.write_buffer(&input, 0, &bytes);
-        let size = 16 * cases.len() as u64;
-        let output = self.buffer(size, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
-        let back = self.buffer(size, wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
-        let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &self.pipeline.get_bind_group_layout(0),
-            entries: &[
-                wgpu::BindGroupEntry { binding: self.cases, resource: input.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: self.results, resource: output.as_entire_binding() },
-            ],
-        });
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            pass.dispatch_workgroups((cases.len() as u32).div_ceil(64), 1, 1);
-        }
-        encoder.copy_buffer_to_buffer(&output, 0, &back, 0, size);
-        self.queue.submit([encoder.finish()]);
-        back.slice(..).map_async(wgpu::MapMode::Read, |mapped| mapped.unwrap());
-        self.device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
-        let data = back.slice(..).get_mapped_range().unwrap();
-        bytemuck::cast_slice::<u8, [f32; 4]>(&data).iter().map(|&[r, g, b, _]| [r, g, b]).collect()
-    }
-
-    fn buffer(&self, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
-        let descriptor = wgpu::BufferDescriptor { label: None, size, usage, mapped_at_creation: false };
-        self.device.create_buffer(&descriptor)
+        self.0.run(&bytes, cases.len()).into_iter().map(|[r, g, b, _]| [r, g, b]).collect()
     }
 }
 
