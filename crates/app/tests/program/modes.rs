@@ -179,16 +179,18 @@ fn thick_fog_shines() {
     assert!(right > 0.0 && clamped > 1.2 * right);
 }
 
-/// The thesis' tables end at 90 degrees, and light that fog scatters does not.
+/// The thesis' tables end at 90 degrees, and light that fog scatters does not; and beyond T = 10 they clamp, so that what is
+/// far away shines.
 #[test]
 fn surfaces_by_tables_err_as_the_readme_says() {
     let desk = Desk::new();
     for (mode, size, p50) in [("table", "64", 5e-3), ("table", "128", 1.5e-3), ("legendre", "64", 1e-2)] {
         let set = ["direct=false", &format!("surface_size={size}")];
         let picture = render(&desk, &format!("modes/{mode}"), "ground_phong", "surface", &set);
-        let errors = Samples::of("ground_phong", "scattered").errors(&picture);
-        println!("{mode} {size}: {errors:?}");
-        assert!(errors.p50 < p50 && errors.max == 1.0, "what turns away is black: {errors:?}");
+        let samples = Samples::of("ground_phong", "scattered");
+        let (errors, black) = (samples.errors(&picture), samples.blackened(&picture));
+        println!("{mode} {size}: {errors:?}, {black} black");
+        assert!(errors.p50 < p50 && errors.max > 100.0 && black > 10, "{errors:?}, {black} black");
     }
 }
 
