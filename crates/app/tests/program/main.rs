@@ -13,6 +13,7 @@ mod exit_codes;
 mod froxels;
 mod fuzz;
 mod image_tests;
+mod modes;
 mod outputs;
 mod physics;
 mod pictures;
