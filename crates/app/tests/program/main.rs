@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod accuracy;
+mod aerial;
 mod assets;
 mod bench;
 mod check;
