@@ -185,7 +185,7 @@ fn factor_of(decoder: &mut Decoder<'_>, node: &Node) -> Option<f64> {
 }
 
 /// What stands in the parentheses of a variant: one value, or several.
-fn arguments(content: &Node) -> Vec<&Node> {
+pub(crate) fn arguments(content: &Node) -> Vec<&Node> {
     match &content.value {
         Value::Tuple(items) => items.iter().collect(),
         Value::Unit => Vec::new(),

@@ -29,6 +29,7 @@ mod overrides;
 mod primitives;
 mod resolve;
 mod scene;
+mod twin;
 
 pub use self::codes::CODES;
 pub use self::cosine_lobes::COSINE_LOBES_MAX;

@@ -12,6 +12,8 @@ mod contributing;
 mod exit_codes;
 mod froxels;
 mod fuzz;
+mod image_tests;
+mod modes;
 mod outputs;
 mod physics;
 mod pictures;
