@@ -9,6 +9,7 @@ mod check;
 mod contributing;
 mod exit_codes;
 mod fuzz;
+mod image_coverage;
 mod image_tests;
 mod outputs;
 mod physics;
