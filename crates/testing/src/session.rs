@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use tyndall_gpu::{Executor, FRAMES_PER_SECOND, FrameOptions, Gpu, PipelineCache, PortData, Timing};
-use tyndall_graph::descriptor::{Dimension, Format, Role};
+use tyndall_graph::descriptor::{Format, Role};
 use tyndall_graph::{Graph, Order, Plan, PlanOptions, PortRef, Resource, Roots};
 use tyndall_plugin::{Plugin, Registry, SearchPath};
 use tyndall_render::{Error, Loaded, Running};
@@ -340,7 +340,7 @@ fn encode(loaded: &Loaded, plan: &Plan, frame: u32) -> Option<Encoded> {
 /// Nothing can be copied into a rasteriser's depth buffer, and whole numbers beyond 24 bits would lose some.
 fn can_be_given(resource: &Resource) -> bool {
     match resource {
-        Resource::Texture { dimension: Dimension::D2 | Dimension::D2Array | Dimension::D3, format, .. } => {
+        Resource::Texture { format, .. } => {
             !matches!(format, Format::Depth32Float | Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint)
         }
         Resource::Buffer { .. } => true,
