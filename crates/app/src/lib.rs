@@ -25,6 +25,7 @@ pub fn shipped() -> Vec<fn() -> Plugin> {
         tyndall_aerial::plugin,
         tyndall_airlight::plugin,
         tyndall_surface_radiance::plugin,
+        tyndall_froxel::plugin,
         tyndall_march::plugin,
     ]
 }

@@ -15,7 +15,7 @@ pub(crate) fn load(arguments: &GraphArguments, registry: &Registry) -> Result<Lo
     let mut out = Diagnostics::default();
     let loaded = try_load(arguments, registry, &mut out);
     if let Some(loaded) = &loaded {
-        loaded.warn_of_unbuilt(registry, &mut out);
+        loaded.warn_of_needs(registry, &mut out);
     }
     out.sort();
     out.dedup();

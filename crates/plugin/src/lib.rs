@@ -22,7 +22,7 @@ pub use codes::CODES;
 pub use folder::{Folder, Origin};
 pub use manifest::Version;
 pub use pass::{Plugin, Reference, ReferenceInput, RustPass, Shaders};
-pub use ports::Notice;
+pub use ports::Need;
 pub use registry::{Registry, RegistryPass};
 pub use search::{SearchPath, find_folders, shader_modules};
 

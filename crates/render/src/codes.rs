@@ -4,8 +4,8 @@ use tyndall_document::Code;
 
 /// The graph reads a scene, and none is given.
 pub const NO_SCENE: Code = Code("no-scene");
-/// A parameter asks for something that is not built.
-pub const NOT_BUILT: Code = Code("not-built");
+/// A switch is on whose work needs an optional input that nothing feeds.
+pub const INPUT_NEEDED: Code = Code("input-needed");
 
 /// All of them.
-pub const CODES: &[Code] = &[NO_SCENE, NOT_BUILT];
+pub const CODES: &[Code] = &[INPUT_NEEDED, NO_SCENE];

@@ -11,7 +11,7 @@ use tyndall_graph::{Graph, Keep, Override, Overrides, ParamSetting, Plan, PlanOp
 use tyndall_plugin::Registry;
 use tyndall_scene::Scene;
 
-use crate::codes::{NO_SCENE, NOT_BUILT};
+use crate::codes::{INPUT_NEEDED, NO_SCENE};
 use crate::error::Error;
 
 /// What is to be rendered.
@@ -49,16 +49,23 @@ pub struct Loaded {
 }
 
 impl Loaded {
-    /// Warns where a parameter that is on asks for something that its pass does not do yet.
-    pub fn warn_of_unbuilt(&self, registry: &Registry, out: &mut Diagnostics) {
-        for pass in self.graph.passes.node_weights().filter(|pass| pass.enabled) {
+    /// Warns where a switch is on whose work needs an optional input that nothing feeds.
+    pub fn warn_of_needs(&self, registry: &Registry, out: &mut Diagnostics) {
+        for (index, pass) in (0..).zip(self.graph.passes.node_weights()).filter(|(_, pass)| pass.enabled) {
             let descriptor = pass.descriptor();
             let Some(registered) = registry.pass(&descriptor.name) else { continue };
             for (param, setting) in descriptor.params.iter().zip(&pass.params) {
-                let notice = registered.notices.iter().find(|notice| notice.param == param.name);
-                if let (Some(notice), ParamSetting::Value(ParamValue::Bool(true))) = (notice, setting) {
-                    let message = format!("`{}` of pass `{}`: {}", param.name, pass.name, notice.text);
-                    out.push(Diagnostic::warning(NOT_BUILT, self.graph.place(pass.span), message));
+                let need = registered.needs.iter().find(|need| need.param == param.name);
+                if let (Some(need), ParamSetting::Value(ParamValue::Bool(true))) = (need, setting)
+                    && !self.graph.is_fed(index, &need.port)
+                {
+                    let message = format!(
+                        "`{}` of pass `{}` does nothing: nothing feeds its input `{}`",
+                        param.name, pass.name, need.port
+                    );
+                    let suggestion = format!("connect `{}`, or set `{}: false`", need.port, param.name);
+                    let warning = Diagnostic::warning(INPUT_NEEDED, self.graph.place(pass.span), message);
+                    out.push(warning.suggest(suggestion));
                 }
             }
         }

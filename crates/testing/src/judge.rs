@@ -8,7 +8,7 @@ use tyndall_image::Image;
 use tyndall_plugin::ReferenceInput;
 
 use crate::adapter::AdapterClass;
-use crate::file::{Property, Tapped};
+use crate::file::{MOST_TEXELS, Property, Tapped};
 use crate::golden;
 use crate::metric::Judgement;
 use crate::options::Options;
@@ -72,6 +72,8 @@ impl Judge<'_> {
         if let Some(record) = records.get(&outcome.key) {
             outcome.stale = record.stale(made_from.as_ref());
         }
+        let thinned = actual.thinned(MOST_TEXELS);
+        let actual = outcome.actual.insert(thinned);
         let judgement = match golden::read(&self.ready.file.goldens(), &outcome.key, records, actual) {
             Ok(expected) => {
                 let judgement = golden.metric(self.adapter).judge(actual, &expected);

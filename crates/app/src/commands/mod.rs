@@ -3,6 +3,7 @@
 mod adapters;
 mod bench;
 mod check;
+mod compare;
 mod diff;
 mod explain;
 mod new;
@@ -27,6 +28,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments) -> Result<(), Failure> {
         Verb::Explain(verb) => explain::run(app, arguments, verb),
         Verb::Passes(verb) => passes::run(app, arguments, verb),
         Verb::Bench(verb) => bench::run(app, arguments, verb),
+        Verb::Compare(verb) => compare::run(app, arguments, verb),
         Verb::Probe(verb) => probe::run(app, arguments, verb),
         Verb::Test(verb) => test::run(app, arguments, verb),
         Verb::Diff(verb) => diff::run(verb),
