@@ -5,6 +5,7 @@
 //! `g > 0` forward, extinction and scattering in 1/m, radiance in W/(sr m²).
 
 pub mod airlight;
+pub mod airlight_table;
 pub mod colour;
 pub mod cone;
 pub mod lights;
@@ -14,10 +15,12 @@ pub mod quadrature;
 pub mod ray;
 pub mod reflection;
 pub mod scene;
+pub mod surface_table;
 
 /// Every shared module: its name, as in `#import name`, and its text.
 pub const MODULES: &[(&str, &str)] = &[
     ("airlight", include_str!("airlight.wgsl")),
+    ("airlight_table", include_str!("airlight_table.wgsl")),
     ("colour", include_str!("colour.wgsl")),
     ("cone", include_str!("cone.wgsl")),
     ("lights", include_str!("lights.wgsl")),
@@ -27,4 +30,5 @@ pub const MODULES: &[(&str, &str)] = &[
     ("ray", include_str!("ray.wgsl")),
     ("reflection", include_str!("reflection.wgsl")),
     ("scene", include_str!("scene.wgsl")),
+    ("surface_table", include_str!("surface_table.wgsl")),
 ];

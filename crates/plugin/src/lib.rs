@@ -11,6 +11,7 @@
 mod codes;
 mod dispatch;
 mod folder;
+mod limits;
 mod manifest;
 mod pass;
 mod ports;
@@ -20,6 +21,7 @@ mod search;
 
 pub use codes::CODES;
 pub use folder::{Folder, Origin};
+pub use limits::{Limit, SceneFeature};
 pub use manifest::Version;
 pub use pass::{Plugin, Reference, ReferenceInput, RustPass, Shaders};
 pub use ports::Need;

@@ -6,6 +6,8 @@ use tyndall_document::Code;
 pub const NO_SCENE: Code = Code("no-scene");
 /// A switch is on whose work needs an optional input that nothing feeds.
 pub const INPUT_NEEDED: Code = Code("input-needed");
+/// The scene has something that a pass does not do justice to.
+pub const LIMIT: Code = Code("limit");
 
 /// All of them.
-pub const CODES: &[Code] = &[INPUT_NEEDED, NO_SCENE];
+pub const CODES: &[Code] = &[INPUT_NEEDED, LIMIT, NO_SCENE];

@@ -79,9 +79,13 @@ fn inputs(ready: &Ready, pass: u32, frame: u32) -> Result<BTreeMap<PortRef, Arc<
     Ok(inputs)
 }
 
-/// A port as its golden has it. `None` of one so large that its golden holds only a part of it: what writes that is run.
+/// A port as its golden has it. `None` where the test asks for no golden of it, or where it is so large that its golden
+/// holds only a part of it: then what writes it runs too.
 fn from_golden(ready: &Ready, port: PortRef, frame: u32) -> Result<Option<PortData>, String> {
     let name = ready.loaded.graph.port_name(port);
+    if !ready.tapped.iter().any(|tapped| tapped.port == port && tapped.golden.is_some()) {
+        return Ok(None);
+    }
     let planned = ready.plan.planned(port).ok_or_else(|| format!("its input `{name}` is not planned"))?;
     let blank = blank(ready.plan.resource(planned));
     let like = Picture::of(&blank, ready.plan.ports[planned as usize].class);

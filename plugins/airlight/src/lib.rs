@@ -6,6 +6,8 @@ use tyndall_plugin::{Plugin, folder};
 
 /// The plugin.
 pub fn plugin() -> Plugin {
-    Plugin::new("airlight", folder!("airlight": "plugin.ron", "homogeneous.wgsl"))
-        .reference("airlight.homogeneous", reference::homogeneous)
+    let files = folder!(
+        "airlight": "plugin.ron", "h.wgsl", "h_k.wgsl", "homogeneous.wgsl", "legendre.wgsl", "lookup.wgsl", "table.wgsl"
+    );
+    Plugin::new("airlight", files).reference("airlight.homogeneous", reference::homogeneous)
 }

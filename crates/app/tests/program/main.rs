@@ -14,6 +14,7 @@ mod froxels;
 mod fuzz;
 mod image_coverage;
 mod image_tests;
+mod modes;
 mod outputs;
 mod physics;
 mod pictures;

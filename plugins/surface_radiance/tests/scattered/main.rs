@@ -65,19 +65,17 @@ fn vector([x, y, z]: [f64; 3]) -> String {
     format!("({x}, {y}, {z})")
 }
 
+/// What is around the surface, per light and channel, and what it is to be multiplied by.
+fn fields(kind: &Phase) -> Vec<[(Field, f64); 3]> {
+    let around = |d: f64| [0, 1, 2].map(|i| (Field::of_point(kind, EXTINCTION[i] * d), ALBEDO[i] * EXTINCTION[i] / d));
+    let sun = ALBEDO.map(|albedo| (Field::of_sun(kind), albedo));
+    distances().into_iter().map(around).chain([sun]).collect()
+}
+
 /// What reaches a surface with a lobe of factor 1, per light, channel and angle.
-fn truth(kind: &Phase, n: f64) -> Vec<[Vec<f64>; 3]> {
-    let angles = || (0..ANGLES).map(angle);
-    let mut lights: Vec<[Vec<f64>; 3]> = Vec::new();
-    for d in distances() {
-        lights.push([0, 1, 2].map(|channel| {
-            let field = Field::of_point(kind, EXTINCTION[channel] * d);
-            angles().map(|theta| ALBEDO[channel] * EXTINCTION[channel] / d * field.over_lobe(n, theta)).collect()
-        }));
-    }
-    let sun = Field::of_sun(kind);
-    lights.push(ALBEDO.map(|albedo| angles().map(|theta| albedo * sun.over_lobe(n, theta)).collect()));
-    lights
+fn truth(fields: &[[(Field, f64); 3]], n: f64) -> Vec<[Vec<f64>; 3]> {
+    let over = |(field, factor): &(Field, f64)| (0..ANGLES).map(|j| factor * field.over_lobe(n, angle(j))).collect();
+    fields.iter().map(|channels| channels.each_ref().map(over)).collect()
 }
 
 /// The largest error of each light and channel, over the largest value of all angles.
@@ -102,9 +100,10 @@ fn lambert_and_phong_for_every_phase_function() {
     let desk = Desk::new(&SHININESSES);
     for (text, kind) in &PHASES {
         let pictures = desk.draw(&lights(), &materials(), &format!("{}, phase: {text}", medium()));
+        let fields = fields(kind);
         let mut errors = Vec::new();
         for (lobe, n) in SHININESSES.iter().enumerate() {
-            let mut expected = truth(kind, *n);
+            let mut expected = truth(&fields, *n);
             if lobe == 0 {
                 expected.iter_mut().flatten().flatten().for_each(|value| *value /= PI);
             }
