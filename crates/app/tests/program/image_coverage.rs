@@ -49,7 +49,8 @@ fn every_pass_has_an_image_test_and_a_property() {
 #[test]
 fn every_shipped_graph_has_an_image_test() {
     let tested: BTreeSet<PathBuf> = tests().iter().filter_map(|file| file.request.graph.canonicalize().ok()).collect();
-    let graphs = std::fs::read_dir(root().join("graphs")).unwrap().map(|entry| entry.unwrap().path());
+    let folders = ["graphs", "graphs/modes"].map(|folder| std::fs::read_dir(root().join(folder)).unwrap());
+    let graphs = folders.into_iter().flatten().map(|entry| entry.unwrap().path());
     let graphs: Vec<PathBuf> = graphs.filter(|path| path.to_string_lossy().ends_with(".graph.ron")).collect();
     assert!(!graphs.is_empty());
     for graph in graphs {
