@@ -46,7 +46,9 @@ fn run_pass(
     outcome: &mut Outcome,
 ) -> Result<(), Error> {
     let tapped: Vec<_> = ready.tapped.iter().filter(|tapped| tapped.port.pass == pass).collect();
-    let ports: Vec<PortRef> = tapped.iter().map(|tapped| tapped.port).collect();
+    // What is not given is rendered, and judged with: a reference on the CPU is asked about what the pass was fed.
+    let fed = ready.inputs(pass).into_iter().map(|(_, port)| port).filter(|port| !inputs.contains_key(port));
+    let ports: Vec<PortRef> = tapped.iter().map(|tapped| tapped.port).chain(fed).collect();
     let mut rendered = session.render_alone(&ready.loaded, &ready.registry, &ports, inputs, frame)?;
     rendered.ports.extend(inputs.iter().map(|(port, data)| (*port, data.clone())));
     let judge = Judge { ready, options, adapter: AdapterClass::of(session.gpu()) };

@@ -117,10 +117,13 @@ impl Judge<'_> {
         let registered = self.ready.registry.pass(&descriptor.name).and_then(|pass| pass.reference);
         let reference = registered.ok_or_else(|| format!("`{}` has no reference on the CPU", descriptor.name))?;
         let ports = || descriptor.ports.iter().enumerate();
-        let inputs = self.ready.inputs(tapped.port.pass).into_iter();
-        let inputs = inputs.filter_map(|(index, from)| {
-            Some((descriptor.ports[index].name.as_str(), rendered.ports.get(&from)?.as_ref()))
-        });
+        let mut inputs = BTreeMap::new();
+        for (index, from) in self.ready.inputs(tapped.port.pass) {
+            let name = descriptor.ports[index].name.as_str();
+            let data =
+                rendered.ports.get(&from).ok_or_else(|| format!("what is fed into `{name}` was not rendered"))?;
+            inputs.insert(name, data.as_ref());
+        }
         let resources = ports().filter_map(|(index, port)| {
             Some((port.name.as_str(), plan.slots[plan.bindings(position)[index]? as usize].resource))
         });
@@ -134,7 +137,7 @@ impl Judge<'_> {
         let (time, aspect) = moment(plan, frame);
         let scene = self.ready.loaded.scene.as_ref().map(|scene| scene.twin(time, aspect));
         let input = ReferenceInput {
-            inputs: inputs.collect(),
+            inputs,
             resources: resources.collect(),
             params: params.map(|(param, setting)| (param.name.as_str(), value(setting))).collect(),
             scene: scene.as_ref(),
