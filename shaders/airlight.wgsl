@@ -17,6 +17,11 @@
 //   p 2/(1 + v^2) dv = scale/rho^2 * Q^(1/2) dpsi,   Q = cos^2(psi/2) + rho^2 sin^2(psi/2)
 // and, of Schlick's function, scale/rho^3 * Q dpsi. In y all of it is algebraic: no trigonometric function is needed.
 //
+// A measured phase function is no lobe. There the nodes stand evenly in its own integral instead:
+//   rest      integral of p over scattering angles a from the point's on, 0..pi; v = tan(a/2)
+//   L = sigma_s I/h * integral of e^(-sigma_t (t + h v)) d rest
+// so what is left to integrate is smooth whatever the function is: importance sampling without chance.
+//
 // Loops end in `if … { break; }` and run at least once, and nothing loops inside: software Vulkan runs a loop's body once
 // more where the test stands anywhere else, and runs both sides of every branch.
 
@@ -114,8 +119,39 @@ fn piece_of(lobe: Lobe, light: Light, spot: SpotBesideRay, beside: LightBesideRa
         spot.along, spot.across, exponent);
 }
 
-// A node's share of the sum: `node` is x in -1..1 and its weight.
-fn at_node(piece: Piece, node: vec2<f32>) -> vec3<f32> {
+// The same of a measured phase function: `middle` and `reach` are of the rest, which falls along the ray.
+fn piece_of_table(light: Light, spot: SpotBesideRay, beside: LightBesideRay, medium: Medium, part: Interval) -> Piece {
+    // xi = s/(1 + s), s = sqrt(v); the width of s from that of v, without cancellation
+    let s0 = sqrt(part.start);
+    let s1 = sqrt(part.start + part.width);
+    let xi0 = s0 / (1.0 + s0);
+    let xi1 = s1 / (1.0 + s1);
+    let width = part.width / (max(s0 + s1, 1e-15) * (1.0 + s0) * (1.0 + s1));
+    let rest0 = rest_of_table(xi0);
+    // narrower than the table's steps: the differences of what it holds would be rounding errors
+    let narrow = 0.5 * (measured_phase(xi0) * angle_per_xi(xi0) + measured_phase(xi1) * angle_per_xi(xi1)) * width;
+    let fallen = select(max(rest0 - rest_of_table(xi1), 0.0), narrow, width * f32(phase_table_count) < 1.0);
+    let rate = medium.extinction * -1.4426950408889634;
+    let exponent = select(0.0, light.exponent, light.kind == SPOT);
+    return Piece(1.0, 0u, 0.0, rest0 - 0.5 * fallen, 0.0, 0.5 * fallen, 0.0, 0.5 * fallen / beside.h, beside.t, beside.h,
+        rate, spot.along, spot.across, exponent);
+}
+
+// A node's share of the sum where the phase function is a table.
+fn at_table_node(piece: Piece, node: vec2<f32>) -> vec3<f32> {
+    let v = v_of_rest(piece.middle - piece.reach * node.x);
+    // also where v^2 would overflow
+    let inverse = 1.0 / (1.0 + v);
+    let c = inverse * inverse;
+    let s = v * inverse;
+    let q = 1.0 / (c + s * s);
+    let cosine = (2.0 * s * inverse * piece.across - (c - s * s) * piece.along) * q;
+    let falloff = piece.exponent * log2(max(cosine, 1e-30));
+    return node.y * exp2(falloff + piece.rate * (piece.t + piece.h * v));
+}
+
+// A node's share of the sum where the phase function is made of lobes: `node` is x in -1..1 and its weight.
+fn at_lobe_node(piece: Piece, node: vec2<f32>) -> vec3<f32> {
     let x = node.x;
     let y = piece.reach * (x + piece.bend * (1.0 - x * x));
     // cos and sin of psi/2, times a length that cancels; the latter times rho
@@ -135,6 +171,17 @@ fn at_node(piece: Piece, node: vec2<f32>) -> vec3<f32> {
     let falloff = piece.exponent * log2(max(cosine, 1e-30));
     let weight = node.y - 2.0 * node.x * node.y * piece.bend;
     return weight * density * exp2(falloff + piece.rate * (piece.t + piece.h * v));
+}
+
+// The same of any phase function.
+fn at_node(piece: Piece, node: vec2<f32>) -> vec3<f32> {
+    var share: vec3<f32>;
+    if phase_table_count > 0u {
+        share = at_table_node(piece, node);
+    } else {
+        share = at_lobe_node(piece, node);
+    }
+    return share;
 }
 
 // Airlight of a piece without sigma_s I. `nodes` is a constant of the pipeline, so what stands here is a plain sum.
@@ -189,7 +236,12 @@ fn airlight(cursor: Cursor, light: Light, medium: Medium, phase: Phase, ray: Ray
     if light.kind == SPOT {
         chunk = chunk_of_spot(spot, light.exponent, lobe.rho, depth_of_v, whole, cursor.start);
     }
-    let piece = piece_of(lobe, light, spot, beside, medium, depth_of_v, chunk.interval);
+    var piece: Piece;
+    if phase_table_count > 0u {
+        piece = piece_of_table(light, spot, beside, medium, chunk.interval);
+    } else {
+        piece = piece_of(lobe, light, spot, beside, medium, depth_of_v, chunk.interval);
+    }
     let scattered = medium.scattering * light.intensity * piece_airlight(piece, nodes);
     let radiance = select(scattered, directional_airlight(light, lobe, medium, ray, way), light.kind == DIRECTIONAL);
 
@@ -237,5 +289,5 @@ fn chunk_of_spot(spot: SpotBesideRay, exponent: f32, rho: f32, depth_of_v: f32, 
 fn directional_airlight(light: Light, lobe: Lobe, medium: Medium, ray: Ray, way: f32) -> vec3<f32> {
     let half_sum = 0.5 * (light.direction + ray.direction);
     let albedo = medium.scattering / max(medium.extinction, vec3<f32>(1e-30));
-    return albedo * light.intensity * lobe_phase(lobe, dot(half_sum, half_sum)) * opacity(medium, way);
+    return albedo * light.intensity * lobe_or_table(lobe, dot(half_sum, half_sum)) * opacity(medium, way);
 }

@@ -10,6 +10,7 @@ pub mod cone;
 pub mod lights;
 pub mod medium;
 pub mod phase;
+pub mod phase_table;
 pub mod quadrature;
 pub mod ray;
 pub mod scene;

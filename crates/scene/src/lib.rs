@@ -25,15 +25,16 @@ pub mod layout;
 mod mesh;
 pub mod model;
 mod overrides;
+mod phase_file;
 mod primitives;
 mod resolve;
 mod scene;
 
 pub use self::codes::CODES;
-pub use self::encode::{Encoded, SCENE_DATA};
+pub use self::encode::{Encoded, SCENE_DATA, phase_table};
 pub use self::frame::{Bounds, Frame, FrameLight, View};
 pub use self::mesh::Mesh;
 pub use self::overrides::{Override, Overrides};
 pub use self::primitives::Primitive;
 pub use self::scene::Scene;
-pub use tyndall_shaders::scene::Phase;
+pub use tyndall_shaders::scene::{HeightFog, Phase};
