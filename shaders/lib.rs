@@ -7,6 +7,7 @@
 pub mod airlight;
 pub mod colour;
 pub mod cone;
+pub mod height_fog;
 pub mod lights;
 pub mod medium;
 pub mod phase;
@@ -20,6 +21,7 @@ pub const MODULES: &[(&str, &str)] = &[
     ("airlight", include_str!("airlight.wgsl")),
     ("colour", include_str!("colour.wgsl")),
     ("cone", include_str!("cone.wgsl")),
+    ("height_fog", include_str!("height_fog.wgsl")),
     ("lights", include_str!("lights.wgsl")),
     ("medium", include_str!("medium.wgsl")),
     ("phase", include_str!("phase.wgsl")),

@@ -45,6 +45,12 @@ fn effective_way(fog: HeightFog, height: f32, climb: f32, way: f32) -> f32 {
     return select(whole, series, abs(z) < 0.1);
 }
 
+// Mean density along a straight way, from the densities at its ends; z is the logarithm of their ratio.
+fn mean_density(start: f32, end: f32, z: f32) -> f32 {
+    let series = start * (1.0 - z * (0.5 - z * (1.0 / 6.0 - z * (1.0 / 24.0 - z * (1.0 / 120.0)))));
+    return select((start - end) / select(z, 1.0, z == 0.0), series, abs(z) < 0.1);
+}
+
 // More than any extinction, 1/m.
 const BEYOND_EXTINCTION: f32 = 3e38;
 

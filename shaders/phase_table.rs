@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use std::sync::{Mutex, PoisonError};
 
 /// A phase function that is linear in the scattering angle between rows, normalised to 1 over the sphere.
-#[derive(Debug, PartialEq)]
+#[derive(PartialEq)]
 pub struct PhaseTable {
     /// Scattering angles, rad, ascending from 0 to π.
     angles: Vec<f64>,
@@ -13,6 +13,12 @@ pub struct PhaseTable {
     values: Vec<f64>,
     /// Integral over the angle from there to π, 1/sr.
     rest: Vec<f64>,
+}
+
+impl std::fmt::Debug for PhaseTable {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "PhaseTable({} rows)", self.angles.len())
+    }
 }
 
 /// Why rows are no phase function; `row` counts from 0.
@@ -45,8 +51,8 @@ pub enum TableFault {
 
 /// Angles this near to 0° and 180° are taken for them.
 const END_DEGREES: f64 = 1e-6;
-/// Steps of what shaders read: the narrowest at both ends, 0.15° where a fogbow is.
-const STEPS: usize = 2048;
+/// Steps of what shaders read: the narrowest at both ends, 0.08° where a fogbow is.
+const STEPS: usize = 4096;
 
 /// Every table that was made, once.
 static TABLES: Mutex<Vec<&'static PhaseTable>> = Mutex::new(Vec::new());

@@ -22,6 +22,7 @@ struct Params {
 var<uniform> params: Params;
 var<uniform> camera: Camera;
 var<uniform> medium: Medium;
+var<uniform> height_fog: HeightFog;
 var<storage, read> lights: Lights;
 var depth: texture_2d<f32>;
 var normal: texture_2d<f32>;
@@ -38,7 +39,7 @@ fn reflected(light: Light, position: vec3<f32>, normal: vec3<f32>, mirrored: vec
     }
     let cos_alpha = dot(mirrored, incident.to_light);
     let lobe = select(0.0, pow(max(cos_alpha, 1e-30), phong.w), cos_alpha > 0.0);
-    return (rho / PI * cosine + phong.xyz * lobe) * incident.irradiance * transmittance(medium, incident.way);
+    return (rho / PI * cosine + phong.xyz * lobe) * incident.irradiance * transmittance(medium, effective_way(height_fog, position.y, incident.to_light.y, incident.way));
 }
 
 @compute @workgroup_size(8, 8)
@@ -64,7 +65,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             i++;
             if i >= lights.count { break; }
         }
-        sum *= transmittance(medium, way);
+        sum *= transmittance(medium, effective_way(height_fog, ray.origin.y, ray.direction.y, way));
     }
     textureStore(radiance, id.xy, vec4<f32>(sum, 1.0));
 }

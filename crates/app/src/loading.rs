@@ -20,6 +20,9 @@ pub(crate) const NO_SCENE: Code = Code("no-scene");
 /// A parameter asks for something that is not built.
 pub(crate) const NOT_BUILT: Code = Code("not-built");
 
+/// A pass is right in a homogeneous medium only, and the scene has height fog.
+pub(crate) const NOT_HOMOGENEOUS: Code = Code("not-homogeneous");
+
 /// A graph and its scene, checked.
 pub(crate) struct Loaded {
     pub graph: Arc<Graph>,
@@ -66,6 +69,9 @@ pub(crate) fn try_load(arguments: &GraphArguments, registry: &Registry, out: &mu
     let validate_us = start.elapsed().as_secs_f64() * 1e6;
     let graph = graph?;
     let scene = load_scene(arguments, &graph, &scene_overrides, out)?;
+    if scene.as_ref().is_some_and(Scene::has_height_fog) {
+        refuse_homogeneous(&graph, out);
+    }
     Some(Loaded { graph, scene, load_us, validate_us })
 }
 
@@ -118,6 +124,23 @@ fn load_scene(
         Err(mistakes) => {
             out.extend(mistakes);
             None
+        }
+    }
+}
+
+/// A pass that reads the medium and not how its density falls with the height would be silently wrong.
+fn refuse_homogeneous(graph: &Graph, out: &mut Diagnostics) {
+    for pass in graph.passes.node_weights().filter(|pass| pass.enabled) {
+        let descriptor = pass.descriptor();
+        let reads = |name: &str| descriptor.scene.iter().any(|read| read == name);
+        if reads("medium") && !reads("height_fog") {
+            let message = format!(
+                "pass `{}` ({}) is right in a homogeneous medium only, and the scene's medium has a `scale_height`",
+                pass.name, descriptor.name
+            );
+            let hint = "use passes for height fog (`airlight.height_fog`, as in height-fog.graph.ron), or leave \
+                        `scale_height` out of the scene";
+            out.push(Diagnostic::error(NOT_HOMOGENEOUS, graph.place(pass.span), message).suggest(hint));
         }
     }
 }

@@ -103,6 +103,11 @@ impl Scene {
         &self.files
     }
 
+    /// Whether the density of the medium falls with the height.
+    pub fn has_height_fog(&self) -> bool {
+        self.height_fog.falloff > 0.0
+    }
+
     /// Everything that depends on the time, in world space.
     pub fn at(&self, time: f64) -> Frame {
         Frame::of(self, time)
