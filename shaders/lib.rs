@@ -14,6 +14,7 @@ pub mod phase;
 pub mod phase_table;
 pub mod quadrature;
 pub mod ray;
+pub mod reflection;
 pub mod scene;
 
 /// Every shared module: its name, as in `#import name`, and its text.
@@ -27,5 +28,6 @@ pub const MODULES: &[(&str, &str)] = &[
     ("phase", include_str!("phase.wgsl")),
     ("quadrature", include_str!("quadrature.wgsl")),
     ("ray", include_str!("ray.wgsl")),
+    ("reflection", include_str!("reflection.wgsl")),
     ("scene", include_str!("scene.wgsl")),
 ];

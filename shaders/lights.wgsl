@@ -8,17 +8,19 @@
 struct IncidentLight {
     to_light: vec3<f32>,        // unit vector
     irradiance: vec3<f32>,      // W/m^2 on a surface that faces the light, before extinction
+    on_axis: vec3<f32>,         // the same if the point lay on the axis of the spot
     way: f32,                   // m through the medium; Directional: 0, its irradiance reaches every point as it is
 }
 
 // Point and spot I/d^2, d floored at the light's radius.
 fn incident_light(light: Light, position: vec3<f32>) -> IncidentLight {
     if light.kind == DIRECTIONAL {
-        return IncidentLight(-light.direction, light.intensity, 0.0);
+        return IncidentLight(-light.direction, light.intensity, light.intensity, 0.0);
     }
     let away = light.position - position;
     let d = max(length(away), max(light.radius, 1e-12));
     let to_light = away / d;
     let falloff = select(1.0, spot_falloff(light, -dot(light.direction, to_light)), light.kind == SPOT);
-    return IncidentLight(to_light, light.intensity * falloff / (d * d), d);
+    let on_axis = light.intensity / (d * d);
+    return IncidentLight(to_light, on_axis * falloff, on_axis, d);
 }

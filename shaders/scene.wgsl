@@ -8,7 +8,8 @@
 //     var<uniform> phase: Phase;              var<storage, read> objects: Objects;
 //     var<uniform> background: Background;    var<storage, read> materials: Materials;
 //     var<storage, read> lights: Lights;      var<storage, read> textures: Textures;
-//     var<storage, read> texels: Texels;      var<uniform> ambient: Ambient;
+//     var<storage, read> texels: Texels;      var<storage, read> cosine_lobes: CosineLobes;
+//     var<uniform> ambient: Ambient;
 //     var<uniform> height_fog: HeightFog;     var<storage, read> phase_table: PhaseTable; (declared in phase.wgsl)
 //
 // A list is a count, padding to 16 bytes, and at least one element, zeroed where the list is empty. The count of a list is
@@ -100,9 +101,9 @@ struct Light {
     direction: vec3<f32>,       // unit vector, the way the light travels; Point: unused
     exponent: f32,              // N of a spot's cos^N
     cos_cutoff: f32,            // cosine of a spot's half-angle
-    pad0: f32,
-    pad1: f32,
-    pad2: f32,
+    lobe: u32,                  // of a spot, or of the most alike, among the cosine lobes, from 1; else 0
+    pad0: u32,
+    pad1: u32,
 }
 
 struct Lights {
@@ -159,6 +160,10 @@ struct Material {
     texture: u32,               // index into the textures, its colour multiplies diffuse; NO_TEXTURE for none
     specular: vec3<f32>,        // k_s of the Phong lobe
     shininess: f32,             // n of the Phong lobe
+    lobe: u32,                  // of n, or of the nearest value, among the cosine lobes, from 1; 0 where k_s is 0
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
 }
 
 struct Materials {
@@ -167,6 +172,25 @@ struct Materials {
     pad1: u32,
     pad2: u32,
     items: array<Material>,
+}
+
+// cos^n within a cutoff: what a Phong surface reflects and what a spot sends.
+struct CosineLobe {
+    exponent: f32,              // n
+    cos_cutoff: f32,            // 0 or less where n = 0 only
+    is_spot: u32,               // 0 or 1
+    pad0: u32,
+}
+
+// The lobes of the materials and spots of the scene, each once: tables of scattered light are made of this alone, not of
+// where the lights are or what colour anything has. At most COSINE_LOBES_MAX of the encoder, which says what is done with
+// more.
+struct CosineLobes {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<CosineLobe>,
 }
 
 // Values of two bits of Texture.wrap: what a coordinate outside 0..1 reads.

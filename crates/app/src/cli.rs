@@ -30,6 +30,8 @@ pub(crate) enum Verb {
     Passes(Passes),
     /// Measure a graph: times per pass and per frame, bytes of memory
     Bench(Bench),
+    /// Compare ways to make the same light: error against double precision, GPU time, memory
+    Compare(Compare),
     /// Print the numbers of one pixel of one port
     Probe(Probe),
     /// List the adapters of this machine
@@ -47,6 +49,7 @@ impl Verb {
         match self {
             Verb::Render(verb) => verb.adapter.as_deref(),
             Verb::Bench(verb) => verb.adapter.as_deref(),
+            Verb::Compare(verb) => verb.adapter.as_deref(),
             Verb::Probe(verb) => verb.adapter.as_deref(),
             _ => None,
         }
@@ -159,6 +162,46 @@ pub(crate) struct Bench {
     /// Let `pass.parameter` or a parameter of the graph run from A to B over the frames
     #[arg(long, value_name = "NAME=A..B")]
     pub vary: Vec<String>,
+    /// The adapter whose name holds this
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+}
+
+/// Render the same scenes by every method of a comparison file, and measure each against light computed in double
+/// precision.
+///
+/// Error: |found - true| / max(true, 1 % of the mean of the true picture), of every channel of every pixel. The truth is
+/// computed on the CPU by adaptive quadrature, for the depth that was rendered.
+///
+/// Time: of the passes that the compared light depends on, rasterising apart, each alone on the GPU; the median over rounds
+/// in which all methods take turns. Passes whose results stay while camera and lights move (tables) are counted apart, as
+/// set-up. Bytes: what these passes write, tables and per-frame textures.
+///
+/// Writes the tables to standard output, and a page with pictures, maps of the error and error over time to DIR/index.html;
+/// beside it table.md (Markdown) and plot.svg.
+#[derive(Debug, Args)]
+pub(crate) struct Compare {
+    /// The comparison file
+    #[arg(value_name = "FILE", default_value = "graphs/light.compare.ron")]
+    pub file: PathBuf,
+    /// Only scenes whose name holds this, in any case; may be given more than once
+    #[arg(long, value_name = "NAME")]
+    pub scene: Vec<String>,
+    /// Only methods whose name holds this, in any case; may be given more than once
+    #[arg(long, value_name = "NAME")]
+    pub method: Vec<String>,
+    /// Another size of the pictures than the file says, 640x480 say
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<(u32, u32)>,
+    /// How often each method is timed, in turns; the median counts
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub rounds: u32,
+    /// The folder of the page
+    #[arg(long, value_name = "DIR", default_value = "out/compare")]
+    pub out: PathBuf,
+    /// Write the figures to FILE
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
     /// The adapter whose name holds this
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,

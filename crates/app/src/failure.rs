@@ -56,6 +56,15 @@ impl From<GpuError> for Failure {
     }
 }
 
+impl From<tyndall_render::Error> for Failure {
+    fn from(error: tyndall_render::Error) -> Self {
+        match error {
+            tyndall_render::Error::Mistakes(mistakes) => Self::Mistakes(mistakes),
+            tyndall_render::Error::Gpu(error) => Self::Gpu(error),
+        }
+    }
+}
+
 impl From<tyndall_image::Error> for Failure {
     fn from(error: tyndall_image::Error) -> Self {
         Self::File(error)

@@ -8,7 +8,6 @@ mod failure;
 mod loading;
 mod pictures;
 mod plugins;
-mod running;
 mod terminal;
 
 use std::process::ExitCode;
@@ -30,8 +29,10 @@ impl App {
     pub fn new() -> Self {
         let plugins = vec![
             tyndall_core::plugin as fn() -> Plugin,
+            tyndall_aerial::plugin,
             tyndall_airlight::plugin,
             tyndall_surface_radiance::plugin,
+            tyndall_froxel::plugin,
             tyndall_march::plugin,
         ];
         Self { plugins, started: Instant::now() }

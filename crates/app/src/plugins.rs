@@ -2,8 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use tyndall_document::Diagnostics;
-use tyndall_plugin::{Registry, SearchPath, find_folders, shader_modules};
+use tyndall_plugin::{Registry, SearchPath};
 
 use crate::App;
 use crate::cli::Arguments;
@@ -15,19 +14,8 @@ const PLUGIN_PATH: &str = "TYNDALL_PLUGIN_PATH";
 /// Links and checks every pass that is found. `beside` are files whose folders may hold a `plugins` folder.
 pub(crate) fn registry(app: &App, arguments: &Arguments, beside: &[&Path]) -> Result<Registry, Failure> {
     let paths = search_paths(arguments, beside);
-    let folders = find_folders(&paths)?;
-    let shared = shader_modules(tyndall_shaders::MODULES, &paths)?;
     let crates = app.plugins.iter().map(|plugin| plugin()).collect();
-    let registry = Registry::new(crates, folders, &shared, tyndall_scene::SCENE_DATA);
-    let registry = registry.map_err(|mut mistakes: Diagnostics| {
-        mistakes.dedup();
-        Failure::Mistakes(mistakes)
-    })?;
-    Ok(registry.with_picture_size(picture_size))
-}
-
-fn picture_size(path: &Path) -> Option<(u32, u32)> {
-    tyndall_image::read(path).ok().map(|picture| (picture.width, picture.height))
+    Ok(tyndall_render::registry(crates, &paths)?)
 }
 
 /// Where plugins are looked for: the command line, the environment, `plugins` beside the graph, `plugins` here.

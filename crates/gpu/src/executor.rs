@@ -19,7 +19,7 @@ use crate::freshness::Freshness;
 use crate::readback::{PortData, read};
 use crate::scene::SceneBuffers;
 use crate::setup::{Program, Programs, Recorder, Setup};
-use crate::slots::{Physical, create_all, fill, fill_stated};
+use crate::slots::{Physical, create_all, fill, fill_stated, upload};
 use crate::timing::{Stamps, Stopwatch, Timing};
 use crate::view::PlannedView;
 
@@ -258,6 +258,26 @@ impl Executor {
         }
         let slot = self.plan.ports[port as usize].slot as usize;
         read(&self.gpu, &name, self.plan.resource(port), &self.slots[slot])
+    }
+
+    /// Puts content into a port in the place of what its pass would compute: `texels` in the port's own format, rows
+    /// from the top, without padding, as [`PortData::texels`] gives them. A pass runs from now on only where something
+    /// that it computes was not given. Holds until [`Executor::poison`].
+    ///
+    /// # Errors
+    /// [`GpuError::Pass`] where the content has another size than the port, where the port is a rasteriser's depth
+    /// buffer (nothing can be copied into one), or where other ports use its memory: plan without sharing.
+    pub fn give(&mut self, port: u32, texels: &[u8]) -> Result<(), GpuError> {
+        let planned = &self.plan.ports[port as usize];
+        let shared = |other: u32| other != port && !self.plan.ports[other as usize].in_place;
+        if self.plan.ports_in(planned.slot).any(shared) {
+            let reason = "other ports use its memory, so nothing can be given to it: plan without sharing".to_owned();
+            return Err(GpuError::Pass { pass: self.plan.port_name(port), reason });
+        }
+        let name = self.plan.port_name(port);
+        upload(&self.gpu, &name, self.plan.resource(port), &self.slots[planned.slot as usize], texels)?;
+        self.freshness.give(&self.plan, port as usize);
+        Ok(())
     }
 
     /// The content of a slot, whatever it holds: constants that flow out of passes which are switched off.

@@ -24,6 +24,8 @@ pub(crate) struct Freshness {
     needed: Vec<bool>,
     /// Of each slot: the port that it holds, and the fingerprint that this was made with.
     holds: Vec<Option<(usize, u64)>>,
+    /// Of each port: its content was given, and is not computed.
+    given: Vec<bool>,
     /// Ports that must hold their content after the frame.
     roots: Vec<bool>,
     /// Counts the frames, to make each one's histories distinct.
@@ -69,6 +71,7 @@ impl Freshness {
             run: vec![false; passes],
             needed: vec![false; plan.ports.len()],
             holds: vec![None; plan.slots.len()],
+            given: vec![false; plan.ports.len()],
             roots,
             frame: 0,
         }
@@ -77,6 +80,13 @@ impl Freshness {
     /// Nothing holds anything any more.
     pub(crate) fn forget(&mut self) {
         self.holds.fill(None);
+        self.given.fill(false);
+    }
+
+    /// The port's slot holds what was put there from outside; its pass need not run for it any more.
+    pub(crate) fn give(&mut self, plan: &Plan, port: usize) {
+        self.given[port] = true;
+        self.holds[plan.ports[port].slot as usize] = Some((port, 0));
     }
 
     /// Whether this pass runs in this frame.
@@ -173,9 +183,10 @@ impl Freshness {
 
     fn valid(&self, plan: &Plan, port: usize) -> bool {
         let planned = &plan.ports[port];
-        planned
-            .pass
-            .is_none_or(|pass| self.holds[planned.slot as usize] == Some((port, self.fingerprints[pass as usize])))
+        let Some(pass) = planned.pass else { return true };
+        self.holds[planned.slot as usize].is_some_and(|(held, fingerprint)| {
+            held == port && (self.given[port] || fingerprint == self.fingerprints[pass as usize])
+        })
     }
 
     /// Marks passes whose kept result would be overwritten in this frame before its last reader comes.

@@ -6,7 +6,7 @@ use tyndall_graph::descriptor::{Dimension, Format};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::slots::Physical;
+use crate::slots::{Physical, encode};
 
 /// The content of a port, every number as `f32`, row 0 the top, layers one after another.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +25,21 @@ pub struct PortData {
     pub is_image: bool,
     /// `width * height * layers * channels` numbers.
     pub data: Vec<f32>,
+}
+
+impl PortData {
+    /// The content as the bytes of a port of this resource. Numbers of up to 24 bits, and all of float formats, come
+    /// out as they were read.
+    pub fn texels(&self, resource: &Resource) -> Vec<u8> {
+        match resource {
+            Resource::Texture { format, .. } => encode(*format, &self.data),
+            Resource::Buffer { bytes, .. } => {
+                let mut content = encode(Format::R32Float, &self.data);
+                content.resize(*bytes as usize, 0);
+                content
+            }
+        }
+    }
 }
 
 /// Copies a slot to the CPU. Waits for the GPU.

@@ -155,6 +155,41 @@ pub(crate) fn fill(gpu: &Gpu, resource: &Resource, physical: &Physical, value: [
     })
 }
 
+/// Writes the whole content of a slot: `texels` in its own format, rows from the top, without padding.
+pub(crate) fn upload(
+    gpu: &Gpu,
+    name: &str,
+    resource: &Resource,
+    physical: &Physical,
+    texels: &[u8],
+) -> Result<(), GpuError> {
+    let refuse = |reason: String| Err(GpuError::Pass { pass: name.to_owned(), reason });
+    if texels.len() as u64 != resource.bytes() {
+        return refuse(format!("it is {resource}, and was given {} bytes", texels.len()));
+    }
+    match (physical, resource) {
+        (_, Resource::Texture { format: Format::Depth32Float, .. }) => {
+            refuse("nothing can be copied into a depth buffer".to_owned())
+        }
+        (Physical::Texture { texture, .. }, Resource::Texture { format, width, height, .. }) => {
+            gpu.create(name, 0, |_| {
+                let layout = wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(width * format.bytes() as u32),
+                    rows_per_image: Some(*height),
+                };
+                gpu.queue.write_texture(texture.as_image_copy(), texels, layout, texture.size());
+            })
+        }
+        (Physical::Buffer(buffer), _) => gpu.create(name, 0, |_| {
+            let mut padded = texels.to_vec();
+            padded.resize(texels.len().next_multiple_of(4), 0);
+            gpu.queue.write_buffer(buffer, 0, &padded);
+        }),
+        (Physical::Texture { .. }, Resource::Buffer { .. }) => refuse("its slot is of another kind".to_owned()),
+    }
+}
+
 /// A depth buffer cannot be copied into, only cleared; to a value within 0 and 1.
 fn clear_depth(gpu: &Gpu, device: &wgpu::Device, view: &wgpu::TextureView, value: f32) {
     let depth = if value.is_nan() { 0.5 } else { value.clamp(0.0, 1.0) };
@@ -171,20 +206,33 @@ fn clear_depth(gpu: &Gpu, device: &wgpu::Device, view: &wgpu::TextureView, value
     gpu.queue.submit([encoder.finish()]);
 }
 
-/// A value as the bytes of one texel.
+/// A value as the bytes of one texel. Formats without NaN get a marker instead that no pass writes by itself.
 fn texel(format: Format, value: [f32; 4]) -> Vec<u8> {
-    let channels = format.channels() as usize;
-    let value = &value[..channels];
+    let value = match format {
+        Format::Rgba8Unorm => value.map(|v| if v.is_nan() { f32::from(MARKER) / 255.0 } else { v }),
+        Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint => {
+            value.map(|v| if v.is_nan() { f32::from(MARKER) * 65536.0 } else { v })
+        }
+        _ => value,
+    };
+    encode(format, &value[..format.channels() as usize])
+}
+
+/// What stands for NaN in a format that has none.
+const MARKER: u8 = 0xa7;
+
+/// Numbers as the bytes of texels: the inverse of what a read-back does.
+pub(crate) fn encode(format: Format, numbers: &[f32]) -> Vec<u8> {
     match format {
         Format::R32Float | Format::Rg32Float | Format::Rgba32Float | Format::Depth32Float => {
-            value.iter().flat_map(|v| v.to_le_bytes()).collect()
+            numbers.iter().flat_map(|v| v.to_le_bytes()).collect()
         }
         Format::R16Float | Format::Rg16Float | Format::Rgba16Float => {
-            value.iter().flat_map(|v| f16::from_f32(*v).to_le_bytes()).collect()
+            numbers.iter().flat_map(|v| f16::from_f32(*v).to_le_bytes()).collect()
         }
-        Format::Rgba8Unorm => value.iter().map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8).collect(),
+        Format::Rgba8Unorm => numbers.iter().map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8).collect(),
         Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint => {
-            value.iter().flat_map(|v| (*v as u32).to_le_bytes()).collect()
+            numbers.iter().flat_map(|v| (*v as u32).to_le_bytes()).collect()
         }
     }
 }

@@ -18,6 +18,9 @@ pub struct PassDescriptor {
     pub ports: Vec<PortDescriptor>,
     /// Parameters, in the order in which they are documented.
     pub params: Vec<ParamDescriptor>,
+    /// Values of several parameters under one word. Where there are any, the pass has a parameter [`PRESET`] whose
+    /// choices are their names; they stand in for the defaults, so a parameter that is given keeps what it is given.
+    pub presets: Vec<Preset>,
     /// Names of the scene data that the pass reads (`camera`, `lights`, …), sorted. Opaque to the graph.
     pub scene: Vec<String>,
     /// The pass does something that no port shows, so it is never culled.
@@ -46,6 +49,20 @@ impl PassDescriptor {
     pub fn param(&self, name: &str) -> Option<&ParamDescriptor> {
         self.params.iter().find(|param| param.name == name)
     }
+}
+
+/// Name of the parameter that chooses one of the [presets](PassDescriptor::presets) of a pass. No shader has it.
+pub const PRESET: &str = "preset";
+
+/// Values of several parameters of a pass under one word.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Preset {
+    /// The word.
+    pub name: String,
+    /// What it stands for.
+    pub about: String,
+    /// Parameters by name and their values; all others keep their defaults.
+    pub values: Vec<(String, ParamValue)>,
 }
 
 /// One port of a pass.

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
+use petgraph::Direction;
 use petgraph::graph::{DiGraph, NodeIndex};
+use petgraph::visit::EdgeRef;
 use rustc_hash::FxHashMap;
 use tyndall_document::{Diagnostic, Place, Source, Span, near};
 
@@ -125,6 +127,15 @@ impl Graph {
     /// Index of the pass of this name.
     pub fn pass_named(&self, name: &str) -> Option<u32> {
         self.names.find(name, |pass| self.pass(pass).name == name)
+    }
+
+    /// Whether a pass that is on feeds this input of the pass.
+    pub fn is_fed(&self, pass: u32, input: &str) -> bool {
+        let ports = &self.pass(pass).descriptor().ports;
+        let edges = self.passes.edges_directed(NodeIndex::new(pass as usize), Direction::Incoming);
+        edges
+            .filter(|edge| self.passes[edge.source()].enabled)
+            .any(|edge| ports[edge.weight().to as usize].name == input)
     }
 
     /// What the pass declares about this port.

@@ -117,6 +117,17 @@ pub fn percentiles(errors: &mut [f64]) -> Option<Percentiles> {
     Some(Percentiles { p50: rank(0.5)?, p95: rank(0.95)?, p99: rank(0.99)?, max: rank(1.0)?, count })
 }
 
+/// The middle value, or the mean of the two in the middle; `None` of none. Sorts them.
+pub fn median(values: &mut [f64]) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    match values.len() {
+        0 => None,
+        odd if odd % 2 == 1 => Some(values[middle]),
+        _ => Some(0.5 * (values[middle - 1] + values[middle])),
+    }
+}
+
 /// Sum of the image over the sum of the reference: 1 where they agree in total energy.
 ///
 /// Infinities that both have are left out; other numbers that are not finite give infinity. Two black images give 1.
@@ -281,5 +292,12 @@ mod tests {
         let found = percentiles(&mut errors).unwrap();
         assert_eq!((found.p50, found.p95, found.p99, found.max), (50.0, 95.0, 99.0, 100.0));
         assert_eq!(percentiles(&mut [3.0]).unwrap().p50, 3.0);
+    }
+
+    #[test]
+    fn medians() {
+        assert_eq!(median(&mut []), None);
+        assert_eq!(median(&mut [3.0, 1.0, 2.0]), Some(2.0));
+        assert_eq!(median(&mut [4.0, 1.0, 2.0, 3.0]), Some(2.5));
     }
 }

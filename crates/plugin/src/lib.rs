@@ -14,6 +14,7 @@ mod folder;
 mod manifest;
 mod pass;
 mod ports;
+mod presets;
 mod registry;
 mod search;
 
@@ -21,7 +22,7 @@ pub use codes::CODES;
 pub use folder::{Folder, Origin};
 pub use manifest::Version;
 pub use pass::{Plugin, RustPass, Shaders};
-pub use ports::Notice;
+pub use ports::Need;
 pub use registry::{Registry, RegistryPass};
 pub use search::{SearchPath, find_folders, shader_modules};
 

@@ -52,6 +52,7 @@ pub(crate) struct ManifestPass {
     pub over: Option<(String, Span)>,
     pub ports: Vec<Entry>,
     pub params: Vec<Entry>,
+    pub presets: Vec<Entry>,
 }
 
 /// A named entry of a map.
@@ -106,7 +107,7 @@ fn version(decoder: &mut Decoder<'_>, node: &Node) -> Option<Version> {
 }
 
 fn pass(decoder: &mut Decoder<'_>, entry: Entry) -> Option<ManifestPass> {
-    let known = ["about", "source", "shader", "dispatch", "ports", "params"];
+    let known = ["about", "source", "shader", "dispatch", "ports", "params", "presets"];
     let fields = decoder.fields(&entry.value, "a pass", &known)?;
     let text = |decoder: &mut Decoder<'_>, name: &str| {
         fields.get(name).and_then(|node| decoder.text(node)).unwrap_or_default().to_owned()
@@ -125,6 +126,7 @@ fn pass(decoder: &mut Decoder<'_>, entry: Entry) -> Option<ManifestPass> {
     let origin = text(decoder, "source");
     let ports = entries(decoder, fields.get("ports"));
     let params = entries(decoder, fields.get("params"));
+    let presets = entries(decoder, fields.get("presets"));
     let (about, shader) = (about?, shader?);
     let pass = ManifestPass {
         name: entry.name,
@@ -136,6 +138,7 @@ fn pass(decoder: &mut Decoder<'_>, entry: Entry) -> Option<ManifestPass> {
         over,
         ports,
         params,
+        presets,
     };
     valid.then_some(pass)
 }

@@ -10,14 +10,15 @@ use tyndall_shader::{Linked, Param, ParamKind, ReflectedPort, derive_port};
 
 use crate::codes::{BAD_PARAM, BAD_PORT, BAD_SIZE};
 use crate::manifest::{Entry, ManifestPass};
+use crate::presets::{preset_param, presets};
 
-/// A switch whose work is not built yet.
+/// A switch that does nothing where an optional input is not fed.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Notice {
-    /// The parameter.
+pub struct Need {
+    /// The switch.
     pub param: String,
-    /// What is told where it is on.
-    pub text: String,
+    /// The input.
+    pub port: String,
 }
 
 /// The descriptor of a pass of a manifest, from its shader and what the manifest adds.
@@ -31,7 +32,10 @@ pub(crate) fn descriptor(
 ) -> PassDescriptor {
     let mut decoder = Decoder::new(source, out);
     let ports = pass.ports.iter().filter_map(|entry| port(&mut decoder, entry, linked)).collect();
-    let params = pass.params.iter().filter_map(|entry| param(&mut decoder, entry, linked)).collect();
+    let mut params: Vec<ParamDescriptor> =
+        pass.params.iter().filter_map(|entry| param(&mut decoder, entry, linked)).collect();
+    let presets = presets(&mut decoder, &pass.presets, &params);
+    params.splice(0..0, preset_param(&presets));
     let mut scene: Vec<String> = linked.resources.iter().map(|resource| resource.name.clone()).collect();
     scene.retain(|name| scene_names.contains(&name.as_str()));
     scene.sort();
@@ -41,6 +45,7 @@ pub(crate) fn descriptor(
         source: pass.origin.clone(),
         ports,
         params,
+        presets,
         scene,
         side_effect: false,
         revision: 0,
@@ -190,10 +195,10 @@ fn arguments(content: &Node) -> Vec<&Node> {
 
 fn param(decoder: &mut Decoder<'_>, entry: &Entry, linked: &Linked) -> Option<ParamDescriptor> {
     let fields =
-        decoder.fields(&entry.value, "a parameter", &["about", "unit", "default", "range", "choices", "unbuilt"])?;
+        decoder.fields(&entry.value, "a parameter", &["about", "unit", "default", "range", "choices", "needs"])?;
     let reflected = linked.param(&entry.name);
-    if fields.get("unbuilt").is_some() && reflected.is_none() {
-        return unbuilt(decoder, entry, &fields);
+    if let Some(node) = fields.get("needs") {
+        needed_port(decoder, node, linked);
     }
     let Some(reflected) = reflected else {
         let message = format!("the shader has no parameter `{}`", entry.name);
@@ -213,25 +218,29 @@ fn param(decoder: &mut Decoder<'_>, entry: &Entry, linked: &Linked) -> Option<Pa
     Some(ParamDescriptor { name: entry.name.clone(), about, unit, default: default?, range, choices, fixed })
 }
 
-/// A switch that the shader does not have yet.
-fn unbuilt(decoder: &mut Decoder<'_>, entry: &Entry, fields: &Fields<'_>) -> Option<ParamDescriptor> {
-    let about = fields.required(decoder, "about").and_then(|node| decoder.text(node)).unwrap_or_default().to_owned();
-    let default = fields.required(decoder, "default").and_then(|node| decoder.bool(node)).map(ParamValue::Bool);
-    fields.get("unbuilt").and_then(|node| decoder.text(node));
-    let (name, unit) = (entry.name.clone(), String::new());
-    Some(ParamDescriptor { name, about, unit, default: default?, range: None, choices: Vec::new(), fixed: false })
+/// The input that a switch needs must be one of the shader's.
+fn needed_port(decoder: &mut Decoder<'_>, node: &Node, linked: &Linked) {
+    let Some(name) = decoder.text(node) else { return };
+    if linked.resource(name).is_none() {
+        let message = format!("the shader has no variable `{name}` that the switch could need");
+        let problem = Diagnostic::error(BAD_PARAM, decoder.place(node.span), message);
+        decoder.report(match near(name, linked.resources.iter().map(|resource| resource.name.as_str())) {
+            Some(name) => problem.suggest(format!("did you mean `{name}`?")),
+            None => problem.suggest("`needs` names an optional input of the pass"),
+        });
+    }
 }
 
-/// What of the pass is declared and not built: parameters with an `unbuilt` text.
-pub(crate) fn notices(pass: &ManifestPass) -> Vec<Notice> {
-    let notice = |entry: &Entry| {
+/// Switches of the pass that do nothing without an input: parameters with `needs`.
+pub(crate) fn needs(pass: &ManifestPass) -> Vec<Need> {
+    let need = |entry: &Entry| {
         let Value::Struct(fields) = &entry.value.value else { return None };
-        match &fields.iter().find(|field| field.name == "unbuilt")?.value.value {
-            Value::Text(text) => Some(Notice { param: entry.name.clone(), text: text.clone() }),
+        match &fields.iter().find(|field| field.name == "needs")?.value.value {
+            Value::Text(port) => Some(Need { param: entry.name.clone(), port: port.clone() }),
             _ => None,
         }
     };
-    pass.params.iter().filter_map(notice).collect()
+    pass.params.iter().filter_map(need).collect()
 }
 
 fn words(decoder: &mut Decoder<'_>, node: &Node) -> Option<Vec<String>> {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use tyndall_document::{Diagnostic, Diagnostics, Place, near};
 use tyndall_gpu::{GpuError, Program, Programs, Setup};
-use tyndall_graph::descriptor::PassDescriptor;
+use tyndall_graph::descriptor::{PRESET, PassDescriptor};
 use tyndall_graph::{Catalogue, PictureSize};
 use tyndall_shader::{Library, check_all, link};
 
@@ -15,7 +15,7 @@ use crate::dispatch;
 use crate::folder::{Folder, MANIFEST, Origin};
 use crate::manifest::{self, Manifest, ManifestPass, Version};
 use crate::pass::{MakeProgram, Plugin, RustPass, Shaders};
-use crate::ports::{self, Notice};
+use crate::ports::{self, Need};
 
 /// Every pass of every plugin.
 #[derive(Default)]
@@ -34,8 +34,8 @@ pub struct RegistryPass {
     pub plugin_about: String,
     /// Where its plugin's files come from.
     pub origin: Origin,
-    /// Switches whose work is not built yet.
-    pub notices: Vec<Notice>,
+    /// Switches that do nothing where an optional input is not fed.
+    pub needs: Vec<Need>,
     /// Of its linked shaders.
     pub fingerprint: u64,
     shaders: Shaders,
@@ -127,7 +127,7 @@ struct Candidate {
     descriptor: PassDescriptor,
     shaders: Shaders,
     make: Make,
-    notices: Vec<Notice>,
+    needs: Vec<Need>,
 }
 
 /// Collects passes and mistakes.
@@ -200,14 +200,14 @@ impl Builder<'_> {
         };
         let make = Make::Dispatch { file: pass.shader.clone(), over };
         let place = manifest.source.place(pass.name_span);
-        self.insert(manifest, folder, Candidate { descriptor, shaders, make, notices: ports::notices(pass) }, &place);
+        self.insert(manifest, folder, Candidate { descriptor, shaders, make, needs: ports::needs(pass) }, &place);
     }
 
     fn rust_pass(&mut self, manifest: &Manifest, folder: &Folder, library: &Library, pass: RustPass) {
         let place = Place::File(manifest.source.name().to_owned());
         let Some(shaders) = self.link(folder, library, &pass.shaders, &place) else { return };
         let make = Make::Rust(pass.make);
-        let candidate = Candidate { descriptor: pass.descriptor, shaders, make, notices: Vec::new() };
+        let candidate = Candidate { descriptor: pass.descriptor, shaders, make, needs: Vec::new() };
         self.insert(manifest, folder, candidate, &place);
     }
 
@@ -237,11 +237,11 @@ impl Builder<'_> {
 
     /// Holds a pass against its shaders, and registers it where they agree.
     fn insert(&mut self, manifest: &Manifest, folder: &Folder, candidate: Candidate, place: &Place) {
-        let Candidate { descriptor, shaders, make, notices } = candidate;
+        let Candidate { descriptor, shaders, make, needs } = candidate;
         let linked: Vec<_> = shaders.0.values().map(AsRef::as_ref).collect();
         if !linked.is_empty() {
             let mut built = descriptor.clone();
-            built.params.retain(|param| notices.iter().all(|notice| notice.param != param.name));
+            built.params.retain(|param| param.name != PRESET || built.presets.is_empty());
             let problems = check_all(&linked, &built, self.scene_names, &[]);
             if !problems.is_empty() {
                 self.out.extend(problems);
@@ -261,7 +261,7 @@ impl Builder<'_> {
             version: manifest.version,
             plugin_about: manifest.about.clone(),
             origin: folder.origin.clone(),
-            notices,
+            needs,
             fingerprint,
             shaders,
             make,

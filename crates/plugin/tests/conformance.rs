@@ -7,7 +7,8 @@ use std::path::Path;
 use support::{LIGHTS, content, executor, gpu, planned, registry, run_all, scene, set_scene};
 use tempfile::TempDir;
 use tyndall_graph::Roots;
-use tyndall_graph::descriptor::{ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, Role};
+use tyndall_graph::descriptor::{ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role};
+use tyndall_plugin::Registry;
 
 #[test]
 fn every_pass_says_what_it_is() {
@@ -23,6 +24,9 @@ fn every_pass_says_what_it_is() {
         for port in &descriptor.ports {
             assert!(!port.about.is_empty(), "{name}.{} is not documented", port.name);
             assert!(is_name(&port.name), "{name}.{}", port.name);
+        }
+        for preset in &descriptor.presets {
+            assert!(!preset.about.is_empty(), "{name}: the preset {} is not documented", preset.name);
         }
         for param in &descriptor.params {
             assert!(!param.about.is_empty(), "{name}.{} is not documented", param.name);
@@ -50,7 +54,7 @@ fn every_pass_renders_over_garbage_without_nan() {
     let picture = folder.path().join("picture.npy");
     std::fs::write(&picture, npy()).unwrap();
     for pass in registry.passes() {
-        let text = graph(&pass.descriptor, &picture);
+        let text = graph(&registry, &pass.descriptor, &picture);
         let plan = planned(&registry, &text, |_, options| options.roots = Roots::All);
         let mut executor = executor(&gpu, &registry, plan);
         set_scene(&mut executor, &scene, 0.0);
@@ -111,16 +115,29 @@ fn is_in_range(param: &ParamDescriptor) -> bool {
     }
 }
 
-/// The pass as `tested`, all its inputs fed: from a geometry buffer's port of the same name, or else with a colour.
-fn graph(descriptor: &PassDescriptor, picture: &Path) -> String {
-    let inputs: Vec<String> =
-        descriptor.inputs().map(|port| format!("\"{}\": \"{}\"", port.name, source(port))).collect();
+/// The pass as `tested`, all its inputs fed: from a geometry buffer's port of the same name, a value from the pass that
+/// makes such values, or else with a colour.
+fn graph(registry: &Registry, descriptor: &PassDescriptor, picture: &Path) -> String {
+    let mut makers = String::new();
+    let mut inputs = Vec::new();
+    for port in descriptor.inputs() {
+        let source = match &port.kind {
+            PortKind::Value { element, .. } => {
+                let (maker, made) = maker(registry, element);
+                makers += &format!("\"maker_of_{}\": (use: {maker:?}),", port.name);
+                format!("maker_of_{}.{made}", port.name)
+            }
+            _ => source(port),
+        };
+        inputs.push(format!("\"{}\": {source:?}", port.name));
+    }
     let file = descriptor.params.iter().find(|param| matches!(param.default, ParamValue::File(_)));
     let params = file.map(|param| format!("\"{}\": {:?}", param.name, picture.display().to_string()));
     format!(
         "(version: 1, size: (4, 3), passes: {{
             \"surfaces\": (use: \"core.gbuffer\"),
             \"colour\": (use: \"core.constant\", params: {{ \"value\": (0.1, 2.0, 30.0) }}),
+            {makers}
             \"tested\": (use: \"{}\", inputs: {{ {} }}, params: {{ {} }}),
         }}, outputs: {{ \"one\": \"tested.{}\" }})",
         descriptor.name,
@@ -128,6 +145,16 @@ fn graph(descriptor: &PassDescriptor, picture: &Path) -> String {
         params.unwrap_or_default(),
         descriptor.outputs().next().expect("a pass has an output").name,
     )
+}
+
+/// A pass that needs nothing, and its output of this type.
+fn maker<'a>(registry: &'a Registry, element: &str) -> (&'a str, &'a str) {
+    let makes =
+        |port: &&PortDescriptor| matches!(&port.kind, PortKind::Value { element: other, .. } if other == element);
+    let alone = registry.passes().filter(|pass| pass.descriptor.inputs().next().is_none());
+    let mut made = alone.filter_map(|pass| Some((&pass.descriptor.name, pass.descriptor.outputs().find(makes)?)));
+    let (pass, port) = made.next().unwrap_or_else(|| panic!("no pass makes a value `{element}` from nothing"));
+    (pass, &port.name)
 }
 
 fn source(port: &PortDescriptor) -> String {

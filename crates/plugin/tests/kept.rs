@@ -77,6 +77,63 @@ fn a_scene_that_moves_runs_its_readers_alone() {
     }
 }
 
+/// The passes of `surface_radiance` that make tables, and what reads them.
+const SCATTERED: &str = r#"(
+    version: 1,
+    size: (40, 30),
+    passes: {
+        "surfaces": (use: "core.gbuffer"),
+        "around": (use: "surface_radiance.zonal"),
+        "lobes": (use: "surface_radiance.lobes", inputs: { "glow": "around.glow", "coefficients": "around.coefficients" }),
+        "lit": (
+            use: "surface_radiance.phong",
+            inputs: { "depth": "surfaces.depth", "normal": "surfaces.normal", "material": "surfaces.material", "table": "lobes.table" },
+        ),
+    },
+    outputs: { "radiance": "lit.radiance" },
+)"#;
+
+/// Tables of scattered light depend on the phase function and on the shapes of lobes, and on nothing else of a scene.
+#[test]
+fn tables_of_scattered_light_run_again_for_the_phase_function_alone() {
+    let (gpu, registry) = (gpu(), registry(&[]));
+    let mut kept = executor(&gpu, &registry, planned(&registry, SCATTERED, |_, _| ()));
+    let mut expected = [0; 4];
+    let mut frame = |phase: &str, density: f64, lamp: &str, runs_again: [u64; 4], what: &str| {
+        let mut changed = scene(&format!("{lamp}, {LIGHTS}"));
+        let medium = changed.medium.as_mut().unwrap();
+        medium.extinction *= density;
+        medium.phase = match phase {
+            "forward" => tyndall_scene::Phase::HenyeyGreenstein { g: 0.7 },
+            _ => tyndall_scene::Phase::Rayleigh,
+        };
+        set_scene(&mut kept, &changed, 0.0);
+        kept.frame(FrameOptions::default()).unwrap();
+        (0..4).for_each(|pass| expected[pass] += runs_again[pass]);
+        let found = runs(&kept);
+        let names = ["surfaces", "around", "lobes", "lit"];
+        let wanted: Vec<(String, u64)> = names.map(str::to_owned).into_iter().zip(expected).collect();
+        let sorted = |mut runs: Vec<(String, u64)>| {
+            runs.sort();
+            runs
+        };
+        assert_eq!(sorted(found), sorted(wanted), "{what}");
+        let fresh = content(&kept, "radiance");
+        assert!(fresh.data.iter().any(|number| *number > 0.0));
+        bits(&fresh)
+    };
+    let lamp = "Point(position: (0.0, 3.0, 1.0), intensity: (5.0, 5.0, 5.0))";
+    let first = frame("forward", 1.0, lamp, [1, 1, 1, 1], "the first frame");
+    assert_eq!(first, frame("forward", 1.0, lamp, [0, 0, 0, 0], "nothing new"));
+    assert_ne!(first, frame("forward", 2.0, lamp, [0, 0, 0, 1], "another density"));
+    let moved = "Point(position: (1.0, 2.0, 1.0), intensity: (7.0, 5.0, 5.0))";
+    assert_ne!(first, frame("forward", 1.0, moved, [0, 0, 0, 1], "another place of a light"));
+    assert_ne!(first, frame("rayleigh", 1.0, lamp, [0, 1, 1, 1], "another phase function"));
+    let spot =
+        "Spot(position: (0.0, 3.0, 1.0), intensity: (5.0, 5.0, 5.0), direction: (0.0, -1.0, 0.0), exponent: 2.0)";
+    frame("rayleigh", 1.0, spot, [0, 0, 1, 1], "another shape of lobe");
+}
+
 #[test]
 fn the_same_value_again_runs_nothing() {
     let (gpu, registry, scene) = (gpu(), registry(&[]), scene(LIGHTS));

@@ -6,10 +6,11 @@ use tyndall_shaders::phase;
 use tyndall_shaders::scene::{HeightFog, Phase};
 
 use crate::adjacency::Adjacency;
+use crate::cosine_lobes::CosineLobes;
 use crate::frame::{Frame, FrameLight, View};
 use crate::gltf::encoded_wrap;
 use crate::layout;
-use crate::model::{Instance, LightKind, Medium};
+use crate::model::{Instance, LightKind, Material, Medium};
 use crate::scene::Scene;
 
 /// The names of scene data, in the order of [`Encoded::items`].
@@ -28,6 +29,7 @@ pub const SCENE_DATA: &[&str] = &[
     "materials",
     "textures",
     "texels",
+    "cosine_lobes",
 ];
 
 const CAMERA: usize = 0;
@@ -48,6 +50,7 @@ impl Encoded {
     pub(crate) fn of(scene: &Scene, time: f64, aspect: f64) -> Encoded {
         let frame = scene.at(time);
         let medium = scene.medium.as_ref().unwrap_or(&VACUUM);
+        let lobes = CosineLobes::of(&scene.materials, &frame.lights);
         let bytes = [
             bytes_of(&camera(&frame.camera, aspect)).to_vec(),
             bytes_of(&layout::Medium::from(medium)).to_vec(),
@@ -56,13 +59,14 @@ impl Encoded {
             bytes_of(&height_fog(&scene.height_fog)).to_vec(),
             bytes_of(&layout::Ambient { radiance: floats(scene.ambient), pad: 0.0 }).to_vec(),
             bytes_of(&layout::Background { radiance: floats(scene.background), pad: 0.0 }).to_vec(),
-            list(frame.lights.iter().map(light)),
+            list(frame.lights.iter().map(|light| encoded_light(light, &lobes))),
             vertices(scene, &frame),
             triangles(scene, &frame),
             list(scene.instances.iter().map(object)),
-            list(scene.materials.iter().map(material)),
+            list(scene.materials.iter().map(|material| encoded_material(material, &lobes))),
             textures(scene),
             texels(scene),
+            list(lobes.items.iter().copied()),
         ];
         let items = SCENE_DATA.iter().copied().zip(bytes).collect();
         Encoded { items, time, aspect }
@@ -90,7 +94,9 @@ impl Encoded {
             match *name {
                 "camera" => self.write(CAMERA, 0, bytes_of(&camera(&frame.camera, aspect))),
                 "lights" => {
-                    let lights: Vec<layout::Light> = frame.lights.iter().map(light).collect();
+                    let lobes = CosineLobes::of(&scene.materials, &frame.lights);
+                    let lights: Vec<layout::Light> =
+                        frame.lights.iter().map(|light| encoded_light(light, &lobes)).collect();
                     self.write(LIGHTS, size_of::<layout::Header>(), cast_slice(&lights));
                 }
                 "vertices" => self.move_vertices(scene, &frame),
@@ -183,14 +189,12 @@ fn height_fog(fog: &HeightFog) -> layout::HeightFog {
     layout::HeightFog { base_height: fog.base_height as f32, falloff, ..Default::default() }
 }
 
-fn light(light: &FrameLight) -> layout::Light {
+fn encoded_light(light: &FrameLight, lobes: &CosineLobes) -> layout::Light {
     let (kind, exponent, cutoff) = match light.kind {
         LightKind::Point => (0, 0.0, std::f64::consts::PI),
         LightKind::Spot { exponent, cutoff } => (1, exponent, cutoff),
         LightKind::Directional => (2, 0.0, std::f64::consts::PI),
     };
-    // cos(π/2) is 6e-17 in double precision; a half-space is meant.
-    let cos_cutoff = if cutoff == std::f64::consts::FRAC_PI_2 { 0.0 } else { cutoff.cos() };
     layout::Light {
         position: floats(light.position),
         kind,
@@ -198,9 +202,15 @@ fn light(light: &FrameLight) -> layout::Light {
         radius: light.radius as f32,
         direction: floats(light.direction),
         exponent: exponent as f32,
-        cos_cutoff: cos_cutoff as f32,
+        cos_cutoff: cosine_of_cutoff(cutoff),
+        lobe: lobes.of_light(light),
         ..Default::default()
     }
+}
+
+/// cos(π/2) is 6e-17 in double precision; a half-space is meant.
+pub(crate) fn cosine_of_cutoff(cutoff: f64) -> f32 {
+    if cutoff == std::f64::consts::FRAC_PI_2 { 0.0 } else { cutoff.cos() as f32 }
 }
 
 fn object(instance: &Instance) -> layout::Object {
@@ -208,12 +218,14 @@ fn object(instance: &Instance) -> layout::Object {
     layout::Object { material, casts_shadow, ..Default::default() }
 }
 
-fn material(material: &crate::model::Material) -> layout::Material {
+fn encoded_material(material: &Material, lobes: &CosineLobes) -> layout::Material {
     layout::Material {
         diffuse: floats(material.diffuse),
         texture: material.texture.map_or(layout::NO_TEXTURE, |t| t as u32),
         specular: floats(material.specular),
         shininess: material.shininess as f32,
+        lobe: lobes.of_material(material),
+        ..Default::default()
     }
 }
 

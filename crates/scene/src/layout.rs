@@ -136,12 +136,12 @@ pub struct Light {
     pub exponent: f32,
     /// Cosine of the half-angle.
     pub cos_cutoff: f32,
+    /// Of a spot, among the cosine lobes, from 1.
+    pub lobe: u32,
     /// 0.
-    pub pad0: f32,
+    pub pad0: u32,
     /// 0.
-    pub pad1: f32,
-    /// 0.
-    pub pad2: f32,
+    pub pad1: u32,
 }
 
 /// What stands before the elements of every list.
@@ -198,6 +198,28 @@ pub struct Material {
     pub specular: [f32; 3],
     /// n.
     pub shininess: f32,
+    /// Among the cosine lobes, from 1; 0 without a Phong lobe.
+    pub lobe: u32,
+    /// 0.
+    pub pad0: u32,
+    /// 0.
+    pub pad1: u32,
+    /// 0.
+    pub pad2: u32,
+}
+
+/// `CosineLobe`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct CosineLobe {
+    /// n.
+    pub exponent: f32,
+    /// Cosine of the half-angle.
+    pub cos_cutoff: f32,
+    /// Whether a spot's.
+    pub is_spot: u32,
+    /// 0.
+    pub pad0: u32,
 }
 
 /// `NO_TEXTURE`.

@@ -17,6 +17,7 @@
 pub mod adjacency;
 pub mod animate;
 pub mod codes;
+mod cosine_lobes;
 mod decode;
 mod encode;
 mod frame;
@@ -31,6 +32,7 @@ mod resolve;
 mod scene;
 
 pub use self::codes::CODES;
+pub use self::cosine_lobes::COSINE_LOBES_MAX;
 pub use self::encode::{Encoded, SCENE_DATA, phase_table};
 pub use self::frame::{Bounds, Frame, FrameLight, View};
 pub use self::mesh::Mesh;

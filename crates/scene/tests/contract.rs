@@ -286,10 +286,10 @@ fn height_fog_ambient_and_emission() {
 /// A measured phase function is read from its file, which is watched.
 #[test]
 fn measured_phase_functions() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../graphs/scenes");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../graphs/scenes");
     let text =
         "(camera: (position: (0, 1, 5), look_at: (0, 1, 0)), medium: (phase: Measured(\"phase/fog_20um.phase.txt\")))";
-    let source = tyndall_document::Source::new("test.scene.ron", text);
+    let source = Source::new("test.scene.ron", text);
     let (scene, _) = Scene::from_source(&source, &folder, &Overrides::new()).expect("it is a scene");
     assert!(scene.files().iter().any(|file| file.ends_with("phase/fog_20um.phase.txt")), "{:?}", scene.files());
     let phase = scene.medium.as_ref().expect("a medium").phase;

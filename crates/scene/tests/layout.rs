@@ -5,8 +5,8 @@ use std::mem::{offset_of, size_of};
 
 use naga::{Module, TypeInner};
 use tyndall_scene::layout::{
-    Ambient, Background, Camera, Header, HeightFog, Light, Lobe, Material, Medium, Object, Phase, PhaseTable, Texture,
-    Vertex,
+    Ambient, Background, Camera, CosineLobe, Header, HeightFog, Light, Lobe, Material, Medium, Object, Phase,
+    PhaseTable, Texture, Vertex,
 };
 
 /// Offset of each member, and size, of each struct of the file.
@@ -41,10 +41,11 @@ fn structs_match_the_shader() {
     same!(structs, Medium { extinction, pad0, scattering, pad1 });
     same!(structs, Lobe { rho, scale, squared, mu_squared });
     same!(structs, Phase { legendre, lobe_count, pad0, pad1, pad2, lobes });
-    same!(structs, Light { position, kind, intensity, radius, direction, exponent, cos_cutoff, pad0, pad1, pad2 });
+    same!(structs, Light { position, kind, intensity, radius, direction, exponent, cos_cutoff, lobe, pad0, pad1 });
+    same!(structs, CosineLobe { exponent, cos_cutoff, is_spot, pad0 });
     same!(structs, Vertex { position, u, normal, v });
     same!(structs, Object { material, casts_shadow, pad0, pad1 });
-    same!(structs, Material { diffuse, texture, specular, shininess });
+    same!(structs, Material { diffuse, texture, specular, shininess, lobe, pad0, pad1, pad2 });
     same!(structs, Texture { offset, width, height, wrap });
     same!(structs, HeightFog { base_height, falloff, pad0, pad1 });
     for (name, expected) in [("Background", size_of::<Background>()), ("Ambient", size_of::<Ambient>())] {
@@ -65,7 +66,7 @@ fn structs_match_the_shader() {
 #[test]
 fn lists_start_with_the_header() {
     let structs = wgsl();
-    for name in ["Lights", "Vertices", "Triangles", "Objects", "Materials", "Textures"] {
+    for name in ["Lights", "Vertices", "Triangles", "Objects", "Materials", "Textures", "CosineLobes"] {
         let (members, _) = &structs[name];
         let expected = [("count", 0), ("pad0", 4), ("pad1", 8), ("pad2", 12), ("items", size_of::<Header>())];
         let expected: Vec<(String, usize)> = expected.map(|(n, o)| (n.to_owned(), o)).to_vec();

@@ -4,19 +4,21 @@ use crate::command::{Failure, succeed};
 use crate::driver;
 use crate::workspace::Workspace;
 
-/// A graph of `graphs/` and what to write of it, for each scene.
+/// A graph of `graphs/` and what to write of it, for each of some scenes of `graphs/scenes/`.
 struct Demo {
     graph: &'static str,
+    scenes: &'static [&'static str],
     outputs: &'static [(&'static str, &'static str)],
 }
 
-const DEMOS: [Demo; 2] = [
-    Demo { graph: "airlight", outputs: &[("image", "png"), ("airlight", "exr")] },
-    Demo { graph: "fog", outputs: &[("image", "png"), ("radiance", "exr")] },
-];
+/// Scenes of `graphs/scenes/` with lamps in fog.
+const FOG: &[&str] = &["pavilion", "primitives"];
 
-/// Scenes of `graphs/scenes/`.
-const SCENES: [&str; 2] = ["pavilion", "primitives"];
+const DEMOS: [Demo; 3] = [
+    Demo { graph: "airlight", scenes: FOG, outputs: &[("image", "png"), ("airlight", "exr")] },
+    Demo { graph: "fog", scenes: FOG, outputs: &[("image", "png"), ("radiance", "exr")] },
+    Demo { graph: "aerial-perspective", scenes: &["terrain"], outputs: &[("image", "png"), ("radiance", "exr")] },
+];
 
 /// Builds, makes sure of a driver, renders, and prints each file that was written.
 ///
@@ -27,7 +29,7 @@ pub fn run(workspace: &Workspace) -> Result<(), Failure> {
     driver::ensure(workspace)?;
     let mut written = Vec::new();
     for demo in &DEMOS {
-        for scene in SCENES {
+        for scene in demo.scenes {
             let files = render(workspace, demo, scene)?;
             written.extend(files);
         }

@@ -44,7 +44,8 @@ fn descriptor() -> PassDescriptor {
             ),
             output(
                 "material",
-                "Layer 0: Lambert reflectance (RGB). Layer 1: Phong reflectance k_s (RGB) and shininess n (A)",
+                "Layer 0: Lambert reflectance (RGB), and the Phong lobe's number among the cosine lobes of the scene, or 0 \
+                    without one (A). Layer 1: Phong reflectance k_s (RGB) and shininess n (A)",
                 "",
                 (Dimension::D2Array, Class::Data, Format::Rgba32Float),
                 [0.0, 0.0, 0.0, 1.0],
@@ -65,6 +66,7 @@ fn descriptor() -> PassDescriptor {
             ),
         ],
         params: Vec::new(),
+        presets: Vec::new(),
         scene: ["camera", "materials", "objects", "texels", "textures", "triangles", "vertices"]
             .map(str::to_owned)
             .into(),

@@ -47,6 +47,7 @@ fn descriptor() -> PassDescriptor {
             choices: Vec::new(),
             fixed: true,
         }],
+        presets: Vec::new(),
         scene: Vec::new(),
         side_effect: false,
         revision: 1,

@@ -4,5 +4,6 @@ use tyndall_plugin::{Plugin, folder};
 
 /// The plugin.
 pub fn plugin() -> Plugin {
-    Plugin::new("surface_radiance", folder!("surface_radiance": "plugin.ron", "phong.wgsl"))
+    let files = folder!("surface_radiance": "plugin.ron", "lobes.wgsl", "phong.wgsl", "zonal.wgsl");
+    Plugin::new("surface_radiance", files)
 }

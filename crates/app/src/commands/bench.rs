@@ -6,12 +6,13 @@ use serde_json::{Value, json};
 use tyndall_gpu::{FrameOptions, Gpu, PipelineCache, Timing, bytes};
 use tyndall_graph::descriptor::{ParamDescriptor, ParamValue};
 use tyndall_graph::{Graph, Plan, Roots};
+use tyndall_image::metrics::median;
+use tyndall_render::Running;
 
 use crate::App;
 use crate::cli::{Arguments, Bench};
 use crate::failure::Failure;
 use crate::loading::{self, Wanted};
-use crate::running::Running;
 use crate::{plugins, terminal};
 
 /// Frames in which each pass is timed by itself, at most: what is wanted is a median.
@@ -113,16 +114,6 @@ fn time_passes(running: &mut Running<'_>, verb: &Bench, runs: &[u64]) -> Result<
     Ok(figures)
 }
 
-fn median(values: &mut [f64]) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    let middle = values.len() / 2;
-    match values.len() {
-        0 => None,
-        odd if odd % 2 == 1 => Some(values[middle]),
-        _ => Some(0.5 * (values[middle - 1] + values[middle])),
-    }
-}
-
 /// A parameter that runs from one value to another over the frames.
 struct Varied {
     name: String,
@@ -208,17 +199,5 @@ impl Figures {
             self.load_us, self.validate_us, self.plan_us, self.first_image_ms
         );
         text + &format!("transient memory {}, {} without sharing\n", bytes(self.shared), bytes(self.unshared))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::median;
-
-    #[test]
-    fn medians() {
-        assert_eq!(median(&mut []), None);
-        assert_eq!(median(&mut [3.0, 1.0, 2.0]), Some(2.0));
-        assert_eq!(median(&mut [4.0, 1.0, 2.0, 3.0]), Some(2.5));
     }
 }

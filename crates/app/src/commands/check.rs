@@ -17,7 +17,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Check) -> Result<(), 
                 let loaded = loading::try_load(&graph, &registry, &mut found);
                 if let Some(loaded) = loaded.filter(|_| !found.has_errors()) {
                     let wanted = loading::Wanted { roots: tyndall_graph::Roots::Outputs, keep: false, live: &[] };
-                    if let Err(Failure::Mistakes(mistakes)) = loading::plan(&loaded, wanted) {
+                    if let Err(tyndall_render::Error::Mistakes(mistakes)) = loading::plan(&loaded, wanted) {
                         found.extend(mistakes);
                     }
                 }

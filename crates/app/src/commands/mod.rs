@@ -3,6 +3,7 @@
 mod adapters;
 mod bench;
 mod check;
+mod compare;
 mod explain;
 mod new;
 mod passes;
@@ -25,6 +26,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments) -> Result<(), Failure> {
         Verb::Explain(verb) => explain::run(app, arguments, verb),
         Verb::Passes(verb) => passes::run(app, arguments, verb),
         Verb::Bench(verb) => bench::run(app, arguments, verb),
+        Verb::Compare(verb) => compare::run(app, arguments, verb),
         Verb::Probe(verb) => probe::run(app, arguments, verb),
         Verb::Adapters => adapters::run(),
         Verb::New { what } => new::run(what),

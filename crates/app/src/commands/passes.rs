@@ -1,7 +1,10 @@
 //! `passes`: what every pass declares.
 
 use serde_json::{Value, json};
-use tyndall_graph::descriptor::{Axis, Extent, ParamDescriptor, ParamValue, PortDescriptor, PortKind, Role, SizeRule};
+use tyndall_graph::descriptor::{
+    Axis, Class, Dimension, Disabled, Extent, ParamDescriptor, ParamValue, PortDescriptor, PortKind, Preset, Role,
+    SizeRule,
+};
 use tyndall_plugin::{Origin, RegistryPass};
 
 use crate::App;
@@ -75,6 +78,7 @@ fn document(pass: &RegistryPass) -> String {
     section(&mut text, "Inputs", descriptor.ports.iter().filter(|port| port.role.is_input()).map(port_text));
     section(&mut text, "Outputs", descriptor.ports.iter().filter(|port| port.role.is_output()).map(port_text));
     section(&mut text, "Parameters", descriptor.params.iter().map(param_text));
+    section(&mut text, "Presets", descriptor.presets.iter().map(preset_text));
     if !descriptor.scene.is_empty() {
         text += &format!("\nReads of the scene: {}\n", descriptor.scene.join(", "));
     }
@@ -92,7 +96,7 @@ fn port_text(port: &PortDescriptor) -> String {
     let mut facts = vec![kind(&port.kind)];
     facts.extend((!port.unit.is_empty()).then(|| port.unit.clone()));
     facts.extend(port.size.as_ref().map(size));
-    facts.extend(role(&port.role));
+    facts.extend(role(port));
     facts.extend(port.unordered.then(|| "unordered".to_owned()));
     format!("  {}: {}\n{}", port.name, facts.join(", "), wrapped(&port.about, "      "))
 }
@@ -107,13 +111,19 @@ fn param_text(param: &ParamDescriptor) -> String {
     format!("  {}: {}\n{}", param.name, facts.join(", "), wrapped(&param.about, "      "))
 }
 
+fn preset_text(preset: &Preset) -> String {
+    let values: Vec<String> = preset.values.iter().map(|(name, value)| format!("{name} {value}")).collect();
+    let values = if values.is_empty() { "the defaults".to_owned() } else { values.join(", ") };
+    wrapped(&format!("{}: {values}", preset.name), "  ") + &wrapped(&preset.about, "      ")
+}
+
 fn kind(kind: &PortKind) -> String {
     match kind {
         PortKind::Texture { dimension, class, format, filtered } => {
             let dimension = match dimension {
-                tyndall_graph::descriptor::Dimension::D2 => "2D texture",
-                tyndall_graph::descriptor::Dimension::D2Array => "2D texture with layers",
-                tyndall_graph::descriptor::Dimension::D3 => "3D texture",
+                Dimension::D2 => "2D texture",
+                Dimension::D2Array => "2D texture with layers",
+                Dimension::D3 => "3D texture",
             };
             let format = format.map(|format| format!(", {format}")).unwrap_or_default();
             format!("{dimension} of {}{format}{}", class_name(*class), if *filtered { ", filtered" } else { "" })
@@ -123,18 +133,23 @@ fn kind(kind: &PortKind) -> String {
     }
 }
 
-fn class_name(class: tyndall_graph::descriptor::Class) -> String {
+fn class_name(class: Class) -> String {
     format!("{class:?}").to_lowercase()
 }
 
-fn role(role: &Role) -> Option<String> {
-    match role {
+fn role(port: &PortDescriptor) -> Option<String> {
+    // a constant has four channels; a scalar port shows the one that it has
+    let constant = |value: &[f32; 4]| match port.kind {
+        PortKind::Texture { class: Class::Scalar, .. } => value[0].to_string(),
+        _ => format!("({})", value.map(|channel| channel.to_string()).join(", ")),
+    };
+    match &port.role {
         Role::Input => None,
-        Role::Optional(value) => Some(format!("optional, else {value:?}")),
-        Role::History(first) => Some(format!("what was there in the frame before, at first {first:?}")),
+        Role::Optional(value) => Some(format!("optional, else {}", constant(value))),
+        Role::History(first) => Some(format!("what was there in the frame before, at first {}", constant(first))),
         Role::Output { disabled } => Some(match disabled {
-            tyndall_graph::descriptor::Disabled::Input(port) => format!("off: {port} flows on"),
-            tyndall_graph::descriptor::Disabled::Constant(value) => format!("off: {value:?}"),
+            Disabled::Input(port) => format!("off: {port} flows on"),
+            Disabled::Constant(value) => format!("off: {}", constant(value)),
         }),
         Role::InOut => Some("changed in place".to_owned()),
     }
@@ -212,6 +227,7 @@ fn as_json(pass: &RegistryPass) -> Value {
         "inputs": descriptor.ports.iter().filter(|port| port.role.is_input()).map(port_json).collect::<Vec<_>>(),
         "outputs": descriptor.ports.iter().filter(|port| port.role.is_output()).map(port_json).collect::<Vec<_>>(),
         "params": descriptor.params.iter().map(param_json).collect::<Vec<_>>(),
+        "presets": descriptor.presets.iter().map(preset_json).collect::<Vec<_>>(),
         "scene": descriptor.scene,
     })
 }
@@ -233,25 +249,34 @@ fn port_json(port: &PortDescriptor) -> Value {
         "filtered": filtered,
         "size": port.size.as_ref().map(size),
         "required": port.role == Role::Input,
-        "role": role(&port.role),
+        "role": role(port),
         "unordered": port.unordered,
     })
 }
 
-fn param_json(param: &ParamDescriptor) -> Value {
-    let default = match &param.default {
+fn preset_json(preset: &Preset) -> Value {
+    let values: serde_json::Map<String, Value> =
+        preset.values.iter().map(|(name, value)| (name.clone(), value_json(value))).collect();
+    json!({ "name": preset.name, "about": preset.about, "values": values })
+}
+
+fn value_json(value: &ParamValue) -> Value {
+    match value {
         ParamValue::Bool(on) => json!(on),
         ParamValue::Integer(number) => json!(number),
         ParamValue::Float(number) => json!(number),
         ParamValue::Vector(numbers) => json!(numbers),
         ParamValue::Choice(word) | ParamValue::File(word) => json!(word),
-    };
+    }
+}
+
+fn param_json(param: &ParamDescriptor) -> Value {
     json!({
         "name": param.name,
         "about": param.about,
         "unit": param.unit,
         "type": type_name(&param.default),
-        "default": default,
+        "default": value_json(&param.default),
         "range": param.range.map(|(low, high)| [low, high]),
         "choices": param.choices,
         "fixed": param.fixed,

@@ -3,12 +3,12 @@
 use tyndall_document::Place;
 use tyndall_gpu::{FrameOptions, Gpu, PipelineCache, PortData};
 use tyndall_graph::Roots;
+use tyndall_render::Running;
 
 use crate::App;
 use crate::cli::{Arguments, Probe};
 use crate::failure::Failure;
 use crate::loading::{self, Wanted};
-use crate::running::Running;
 use crate::{plugins, terminal};
 
 pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Probe) -> Result<(), Failure> {

@@ -8,13 +8,13 @@ use tyndall_gpu::{Executor, FrameOptions, Gpu, PipelineCache};
 use tyndall_graph::descriptor::{Dimension, PortKind};
 use tyndall_graph::{Graph, PortRef, Resource, Roots};
 use tyndall_image::{FileKind, frame_path, has_frame_number, supported};
+use tyndall_render::Running;
 
 use crate::App;
 use crate::cli::{Arguments, Render};
 use crate::failure::Failure;
 use crate::loading::{self, Loaded, Wanted};
 use crate::pictures::{no_picture, write_port};
-use crate::running::Running;
 use crate::{plugins, terminal};
 
 /// A port, and the file that it goes to (with `####` for the number of a frame).

@@ -2,7 +2,8 @@
 
 use crate::run::Desk;
 
-const VERBS: [&str; 9] = ["render", "check", "show", "explain", "passes", "bench", "probe", "adapters", "new"];
+const VERBS: [&str; 10] =
+    ["render", "check", "compare", "show", "explain", "passes", "bench", "probe", "adapters", "new"];
 
 #[test]
 fn every_verb_has_help() {

@@ -3,11 +3,14 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod accuracy;
+mod aerial;
 mod assets;
 mod bench;
 mod check;
+mod compare;
 mod contributing;
 mod exit_codes;
+mod froxels;
 mod fuzz;
 mod outputs;
 mod physics;

@@ -99,6 +99,7 @@ fn pass(name: &str, ports: Vec<PortDescriptor>, param: Option<&str>) -> PassDesc
         source: String::new(),
         ports,
         params: param.map(number).into_iter().collect(),
+        presets: Vec::new(),
         scene: Vec::new(),
         side_effect: false,
         revision: 0,

@@ -24,6 +24,7 @@ pub enum DescriptorError {
     ThroughOther { port: String, named: String },
     NoChoices(String),
     BadDefault { param: String, why: String },
+    BadPreset { preset: String, why: String },
 }
 
 impl fmt::Display for DescriptorError {
@@ -59,6 +60,7 @@ impl fmt::Display for DescriptorError {
                 write!(f, "where the pass is off `{port}` gives `{named}`, which is of another kind")
             }
             E::NoChoices(param) => write!(f, "the parameter `{param}` has no words to choose from"),
+            E::BadPreset { preset, why } => write!(f, "the preset `{preset}` {why}"),
             E::BadDefault { param, why } => write!(f, "the default of the parameter `{param}` {why}"),
         }
     }

@@ -8,7 +8,7 @@ use crate::descriptor::PassDescriptor;
 use crate::plan::Usages;
 pub use errors::DescriptorError;
 
-use checks::{check_default, check_names};
+use checks::{check_default, check_names, check_presets};
 use resolve::resolve;
 
 /// What validation and planning read of a descriptor.
@@ -100,6 +100,7 @@ impl Signature {
         for param in &descriptor.params {
             check_default(param, &mut errors);
         }
+        check_presets(descriptor, &mut errors);
         let ports: Vec<PortSignature> =
             descriptor.ports.iter().map(|port| resolve(descriptor, port, &mut errors)).collect();
         let size_order = size_order(descriptor, &ports, &mut errors);

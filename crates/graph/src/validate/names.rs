@@ -88,6 +88,7 @@ pub(super) fn unknown_kind() -> Arc<Kind> {
         source: String::new(),
         ports: Vec::new(),
         params: Vec::new(),
+        presets: Vec::new(),
         scene: Vec::new(),
         side_effect: false,
         revision: 0,

@@ -8,17 +8,19 @@ use tyndall_document::{Decoder, Diagnostic, Diagnostics, Node, Place, Span, Valu
 use super::values::{converted, kind_of, same_kind, typed, within};
 use super::{Validator, missing_file};
 use crate::codes;
-use crate::descriptor::{ParamDescriptor, ParamValue};
+use crate::descriptor::{PRESET, ParamDescriptor, ParamValue, PassDescriptor};
 use crate::graph::{ParamRef, ParamSetting};
 use crate::overrides::moved_to_argument;
 
 impl<'a> Validator<'a> {
-    /// Sets every parameter of a pass: to its default, to what the file says, to what the command line says.
+    /// Sets every parameter of a pass: to its default or what a preset puts in its place, to what the file says, to
+    /// what the command line says.
     pub(super) fn set_params(&mut self, pass: u32) {
         let kind = self.kind_of(pass);
         let params = &kind.descriptor.params;
         let mut settings: Vec<ParamSetting> =
             params.iter().map(|param| ParamSetting::Value(param.default.clone())).collect();
+        let mut given = vec![false; params.len()];
         let file = self.file;
         for entry in &file.passes[pass as usize].params {
             let name = file.text(&entry.name);
@@ -32,6 +34,7 @@ impl<'a> Validator<'a> {
                 self.mark_used(&entry.value);
                 continue;
             };
+            given[index] = true;
             let param = ParamRef { pass, param: index as u32 };
             if let Some(setting) = self.setting(&params[index], param, &entry.value) {
                 settings[index] = setting;
@@ -39,15 +42,23 @@ impl<'a> Validator<'a> {
             self.size_place(param, &settings[index], self.place(entry.value.span));
         }
         if !self.params.passes.is_empty() {
-            self.override_settings(pass, params, &mut settings);
+            self.override_settings(pass, params, &mut settings, &mut given);
         }
+        use_preset(&kind.descriptor, &mut settings, &given);
         self.passes[NodeIndex::new(pass as usize)].params = settings;
     }
 
-    fn override_settings(&mut self, pass: u32, params: &[ParamDescriptor], settings: &mut [ParamSetting]) {
+    fn override_settings(
+        &mut self,
+        pass: u32,
+        params: &[ParamDescriptor],
+        settings: &mut [ParamSetting],
+        was_given: &mut [bool],
+    ) {
         for (index, descriptor) in params.iter().enumerate() {
             let param = ParamRef { pass, param: index as u32 };
             let Some(given) = self.params.passes.get(&param).copied() else { continue };
+            was_given[index] = true;
             for value in &mut self.params.graph {
                 value.uses.retain(|other| *other != param);
             }
@@ -198,6 +209,20 @@ impl<'a> Validator<'a> {
     /// Where a pass's name stands.
     pub(super) fn pass_span(&self, pass: u32) -> Span {
         self.file.passes[pass as usize].name.span
+    }
+}
+
+/// Puts the values of the chosen preset in the place of the defaults of all parameters that are not given.
+fn use_preset(descriptor: &PassDescriptor, settings: &mut [ParamSetting], given: &[bool]) {
+    let position = |name: &str| descriptor.params.iter().position(|param| param.name == name);
+    let chosen = position(PRESET).and_then(|index| match &settings[index] {
+        ParamSetting::Value(ParamValue::Choice(word)) => descriptor.presets.iter().find(|preset| preset.name == *word),
+        _ => None,
+    });
+    for (name, value) in chosen.map(|preset| preset.values.as_slice()).unwrap_or_default() {
+        if let Some(index) = position(name).filter(|index| !given[*index]) {
+            settings[index] = ParamSetting::Value(value.clone());
+        }
     }
 }
 

@@ -76,6 +76,7 @@ pub fn pass(name: &str, ports: Vec<PortDescriptor>, params: Vec<ParamDescriptor>
         source: String::new(),
         ports,
         params,
+        presets: Vec::new(),
         scene: Vec::new(),
         side_effect: false,
         revision: 0,

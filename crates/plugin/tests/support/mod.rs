@@ -16,8 +16,10 @@ use tyndall_scene::{SCENE_DATA, Scene};
 pub fn shipped() -> Vec<Plugin> {
     vec![
         tyndall_core::plugin(),
+        tyndall_aerial::plugin(),
         tyndall_airlight::plugin(),
         tyndall_surface_radiance::plugin(),
+        tyndall_froxel::plugin(),
         tyndall_march::plugin(),
     ]
 }

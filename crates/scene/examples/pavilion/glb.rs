@@ -1,4 +1,4 @@
-//! As much of a glTF writer as the pavilion and the tests need.
+//! As much of a glTF writer as the examples and the tests need.
 
 use glam::{Quat, Vec2, Vec3};
 use serde_json::{Map, Value, json};
@@ -114,7 +114,7 @@ impl Glb {
     /// The file, its scene made of these nodes.
     pub fn finish(mut self, roots: &[usize]) -> Vec<u8> {
         let mut root = std::mem::take(&mut self.lists);
-        root.insert("asset".to_owned(), json!({ "version": "2.0", "generator": "tyndall pavilion" }));
+        root.insert("asset".to_owned(), json!({ "version": "2.0", "generator": "tyndall" }));
         root.insert("scene".to_owned(), json!(0));
         root.insert("scenes".to_owned(), json!([{ "nodes": roots }]));
         root.insert("buffers".to_owned(), json!([{ "byteLength": self.bytes.len() }]));

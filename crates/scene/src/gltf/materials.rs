@@ -8,6 +8,7 @@ use gltf::json::material::AlphaMode;
 use gltf::json::texture::{Info, WrappingMode};
 use gltf::json::validation::Checked::Valid;
 use image::RgbaImage;
+use tyndall_shaders::colour::{linear_from_srgb, srgb_from_linear};
 
 use super::accessors::{Data, absent};
 use super::fault::{At, Checked, Fault, Report, element};
@@ -91,24 +92,23 @@ impl Reader<'_> {
         let mut diffuse = DVec3::from_array(factor);
         let constant_metal = |diffuse: DVec3, metallic: f64| diffuse * (1.0 - metallic);
         let (texture, uv) = match (base, metal) {
-            (base, Some(metal)) if base.is_none_or(|base| base.uv == metal.uv) => {
-                let key = (base.map(|b| b.image), Some((metal.image, (metallic as f32).to_bits())));
-                let sampled = base.unwrap_or(metal);
-                (Some(self.texture((key.0, key.1, sampled.wrap))?), Some(sampled.uv))
+            (base, None) => {
+                diffuse = constant_metal(diffuse, metallic);
+                let texture = base.map(|base| self.texture((Some(base.image), None, base.wrap))).transpose()?;
+                (texture, base.map(|base| base.uv))
             }
-            (Some(base), Some(metal)) => {
+            (Some(base), Some(metal)) if base.uv != metal.uv => {
                 let mean = mean_blue(self.images.get(metal.image)?.as_ref());
                 let message = "base colour and metallic have different texture coordinates; the mean metallic is used";
                 report.warn(Fault::new(GLTF_IGNORED, format!("{}: {message}", label())));
                 diffuse = constant_metal(diffuse, metallic * mean);
                 (Some(self.texture((Some(base.image), None, base.wrap))?), Some(base.uv))
             }
-            (base, None) => {
-                diffuse = constant_metal(diffuse, metallic);
-                let texture = base.map(|base| self.texture((Some(base.image), None, base.wrap))).transpose()?;
-                (texture, base.map(|base| base.uv))
+            (base, Some(metal)) => {
+                let key = (base.map(|b| b.image), Some((metal.image, (metallic as f32).to_bits())));
+                let sampled = base.unwrap_or(metal);
+                (Some(self.texture((key.0, key.1, sampled.wrap))?), Some(sampled.uv))
             }
-            (None, Some(_)) => unreachable!("without a base colour texture the first arm holds"),
         };
         if diffuse == DVec3::ZERO && metallic == 1.0 {
             let message = "is wholly metallic, has no diffuse reflectance and is drawn black; an object of the scene \
@@ -208,16 +208,6 @@ fn baked(base: Option<&Arc<RgbaImage>>, metal: Option<&(Arc<RgbaImage>, f32)>, w
         }
     }
     Texture { width, height, wrap, texels }
-}
-
-/// IEC 61966-2-1.
-fn linear_from_srgb(value: f64) -> f64 {
-    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
-}
-
-/// IEC 61966-2-1.
-fn srgb_from_linear(value: f64) -> f64 {
-    if value <= 0.003_130_8 { value * 12.92 } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 }
 }
 
 #[cfg(test)]

@@ -35,6 +35,7 @@ pub fn descriptor() -> PassDescriptor {
             port("radiance", output(), texture(Dimension::D2, Class::Color, Some(Format::Rgba32Float), false)),
         ],
         params: vec![param("exposure", ParamValue::Float(1.0), false), param("nodes", ParamValue::Integer(12), true)],
+        presets: Vec::new(),
         scene: vec!["camera".into()],
         side_effect: false,
         revision: 0,

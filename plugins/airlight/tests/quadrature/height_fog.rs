@@ -1,6 +1,7 @@
 //! `shaders/height_fog.wgsl` on a GPU against its twin: rays, lights and fogs at random.
 
 use glam::DVec3;
+use tyndall_probe::Probe;
 use tyndall_scene::layout;
 use tyndall_shaders::height_fog::airlight;
 use tyndall_shaders::scene::{HeightFog, Light};
@@ -8,7 +9,6 @@ use tyndall_shaders::scene::{HeightFog, Light};
 use crate::Errors;
 use crate::cases::{Case, Kind, Random, random};
 use crate::on_gpu;
-use crate::probe::Probe;
 
 const SHADER: &str = "
 #import scene
@@ -79,9 +79,9 @@ impl Foggy {
 }
 
 fn errors(cases: &[Foggy], nodes: u32) -> Errors {
-    let probe = Probe::new(SHADER, &[("nodes", f64::from(nodes))]);
-    let bytes = cases.iter().flat_map(Foggy::bytes).collect();
-    let found = probe.run(&[("cases", bytes), ("phase_table", vec![0; 32])], cases.len());
+    let probe = Probe::new(SHADER, &[], &[("nodes", f64::from(nodes))]);
+    let bytes: Vec<u8> = cases.iter().flat_map(Foggy::bytes).collect();
+    let found = probe.run(&bytes, cases.len());
     let error =
         |(case, found): (&Foggy, [f32; 4])| crate::error_of(case, [found[0], found[1], found[2]], case.expected());
     Errors::from(cases.iter().zip(found).filter_map(error).collect())
@@ -134,9 +134,9 @@ fn without_falloff_it_is_homogeneous() {
     let cases = random(600, Kind::HenyeyGreenstein, 4.0);
     let foggy: Vec<Foggy> =
         cases.iter().map(|&case| Foggy { case, fog: HeightFog::NONE, attenuated_sun: false }).collect();
-    let probe = Probe::new(SHADER, &[("nodes", 12.0)]);
-    let bytes = foggy.iter().flat_map(Foggy::bytes).collect();
-    let found = probe.run(&[("cases", bytes), ("phase_table", vec![0; 32])], cases.len());
+    let probe = Probe::new(SHADER, &[], &[("nodes", 12.0)]);
+    let bytes: Vec<u8> = foggy.iter().flat_map(Foggy::bytes).collect();
+    let found = probe.run(&bytes, cases.len());
     let plain = on_gpu::airlight(&cases, 12);
     let error = |(found, plain): (&[f32; 4], &[f32; 3])| {
         let channel = |i: usize| if plain[i] > 1e-28 { (f64::from(found[i] / plain[i]) - 1.0).abs() } else { 0.0 };

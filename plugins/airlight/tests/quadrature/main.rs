@@ -11,7 +11,6 @@ mod cases;
 mod height_fog;
 mod on_gpu;
 mod phases;
-mod probe;
 
 use cases::{Case, Kind, random};
 use glam::DVec3;

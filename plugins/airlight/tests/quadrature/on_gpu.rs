@@ -1,10 +1,10 @@
 //! Airlight of cases on the GPU.
 
+use tyndall_probe::Probe;
 use tyndall_scene::{layout, phase_table};
 use tyndall_shaders::scene::{Light, Phase};
 
 use crate::cases::Case;
-use crate::probe::Probe;
 
 const SHADER: &str = "
 #import scene
@@ -47,9 +47,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 /// Airlight of each case, W/(sr m²). Of measured phase functions all cases have the same.
 pub fn airlight(cases: &[Case], nodes: u32) -> Vec<[f32; 3]> {
     let table = phase_table(&cases[0].medium.phase);
-    let probe = Probe::new(SHADER, &[("nodes", f64::from(nodes)), ("phase_table_count", count(&table))]);
-    let bytes = cases.iter().flat_map(bytes).collect();
-    let results = probe.run(&[("cases", bytes), ("phase_table", table)], cases.len());
+    let probe = Probe::new(SHADER, &[], &[("nodes", f64::from(nodes)), ("phase_table_count", count(&table))]);
+    let bytes: Vec<u8> = cases.iter().flat_map(bytes).collect();
+    let results = probe.run_with(&bytes, cases.len(), &[("phase_table", &table)]);
     results.into_iter().map(|[r, g, b, _]| [r, g, b]).collect()
 }
 

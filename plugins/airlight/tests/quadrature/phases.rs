@@ -1,12 +1,12 @@
 //! `phase_at` of `shaders/phase.wgsl` on the GPU: the function of its twin, and 1 over the sphere.
 
+use tyndall_probe::Probe;
 use tyndall_scene::phase_table;
 use tyndall_shaders::phase::phase;
 use tyndall_shaders::scene::Phase;
 
 use crate::cases::fog;
 use crate::on_gpu::{self, count};
-use crate::probe::Probe;
 
 const SHADER: &str = "
 #import scene
@@ -26,10 +26,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 
 fn on_gpu(kind: &Phase, places: &[f32]) -> Vec<f32> {
     let table = phase_table(kind);
-    let probe = Probe::new(SHADER, &[("phase_table_count", count(&table))]);
-    let inputs =
-        [("cases", bytemuck::cast_slice(places).to_vec()), ("phase", on_gpu::phase(kind)), ("phase_table", table)];
-    probe.run(&inputs, places.len()).iter().map(|result| result[0]).collect()
+    let probe = Probe::new(SHADER, &[], &[("phase_table_count", count(&table))]);
+    let inputs: [(&str, &[u8]); 2] = [("phase", &on_gpu::phase(kind)), ("phase_table", &table)];
+    let results = probe.run_with(bytemuck::cast_slice(places), places.len(), &inputs);
+    results.iter().map(|result| result[0]).collect()
 }
 
 fn all() -> Vec<Phase> {

@@ -7,13 +7,14 @@ use tyndall_graph::Plan;
 use tyndall_plugin::Registry;
 use tyndall_scene::{Encoded, Scene};
 
-use crate::failure::Failure;
+use crate::error::Error;
 
 /// Copies of a port that exist at a time while it is read back and written to a file.
 const READBACK_COPIES: u64 = 4;
 
 /// A plan with its scene on a device.
-pub(crate) struct Running<'a> {
+pub struct Running<'a> {
+    /// What runs it.
     pub executor: Executor,
     scene: Option<(&'a Scene, Encoded)>,
     aspect: f64,
@@ -21,13 +22,16 @@ pub(crate) struct Running<'a> {
 
 impl<'a> Running<'a> {
     /// Checks that the machine can hold the plan, and makes it ready.
+    ///
+    /// # Errors
+    /// What the plan needs and the machine has not; what a pass reports.
     pub fn new(
         gpu: &Arc<Gpu>,
         plan: Plan,
         scene: Option<&'a Scene>,
         registry: &Registry,
         cache: &mut PipelineCache,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         let largest = plan.roots.iter().map(|port| plan.resource(*port).bytes()).max().unwrap_or_default();
         memory::check(gpu, &plan, READBACK_COPIES * largest)?;
         let aspect = f64::from(plan.size.0) / f64::from(plan.size.1);
@@ -42,12 +46,15 @@ impl<'a> Running<'a> {
     }
 
     /// Brings the scene to the frame's time, and runs the frame.
-    pub fn frame(&mut self, options: FrameOptions) -> Result<FrameReport, Failure> {
+    ///
+    /// # Errors
+    /// A lost device, scene data over its limits, what a pass reports.
+    pub fn frame(&mut self, options: FrameOptions) -> Result<FrameReport, Error> {
         self.bring_scene_to(f64::from(options.frame) / FRAMES_PER_SECOND)?;
         Ok(self.executor.frame(options)?)
     }
 
-    fn bring_scene_to(&mut self, time: f64) -> Result<(), Failure> {
+    fn bring_scene_to(&mut self, time: f64) -> Result<(), Error> {
         let Some((scene, encoded)) = &mut self.scene else { return Ok(()) };
         let gpu = self.executor.gpu().clone();
         for name in encoded.update(scene, time, self.aspect) {

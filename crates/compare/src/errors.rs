@@ -1,0 +1,100 @@
+//! How far a picture is from the truth.
+
+use tyndall_image::metrics::{Percentiles, percentiles};
+
+use crate::truth::Truth;
+
+/// Errors are relative to the truth or, where that is darker, to this part of the mean of the true picture: what is dark
+/// beyond interest must not decide.
+pub(crate) const FLOOR: f64 = 0.01;
+
+/// Errors of one picture.
+#[derive(Debug, Clone)]
+pub(crate) struct Errors {
+    /// Over all channels of all pixels; `None` of a picture without pixels.
+    pub percentiles: Option<Percentiles>,
+    /// Of the worst channel of each pixel.
+    pub of_pixels: Vec<f64>,
+}
+
+impl Errors {
+    /// Of a picture that has the truth's pixels.
+    pub fn new(found: &[[f32; 3]], truth: &Truth) -> Self {
+        let floor = FLOOR * truth.mean();
+        let pixels = found.iter().zip(&truth.pixels);
+        let mut values: Vec<f64> = pixels
+            .flat_map(|(found, wanted)| [0, 1, 2].map(|channel| relative(found[channel], wanted[channel], floor)))
+            .collect();
+        let of_pixels = values.chunks_exact(3).map(|pixel| pixel.iter().copied().fold(0.0, f64::max)).collect();
+        Self { percentiles: percentiles(&mut values), of_pixels }
+    }
+}
+
+/// |found − wanted|/max(|wanted|, floor); what is no number is infinitely wrong.
+fn relative(found: f32, wanted: f64, floor: f64) -> f64 {
+    let difference = (f64::from(found) - wanted).abs();
+    if difference == 0.0 {
+        0.0
+    } else if difference.is_finite() {
+        difference / wanted.abs().max(floor)
+    } else {
+        f64::INFINITY
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    /// 100 grey pixels from 1 to 100; their mean is 50.5.
+    fn ramp() -> Truth {
+        Truth { pixels: (1..=100).map(|n| DVec3::splat(f64::from(n))).collect() }
+    }
+
+    fn found(change: impl Fn(usize, f64) -> f64) -> Errors {
+        let truth = ramp();
+        let pixels = truth.pixels.iter().enumerate().map(|(index, pixel)| [change(index, pixel.x) as f32; 3]);
+        Errors::new(&pixels.collect::<Vec<_>>(), &truth)
+    }
+
+    #[test]
+    fn the_truth_has_no_error() {
+        let errors = found(|_, value| value);
+        assert_eq!(errors.percentiles.unwrap().max, 0.0);
+        assert!(errors.of_pixels.iter().all(|error| *error == 0.0));
+    }
+
+    #[test]
+    fn errors_are_relative_to_the_truth_and_not_to_what_was_found() {
+        let errors = found(|_, value| value / 2.0).percentiles.unwrap();
+        assert_eq!((errors.p50, errors.p99, errors.max), (0.5, 0.5, 0.5));
+        assert_eq!(found(|_, value| value * 2.0).percentiles.unwrap().p50, 1.0);
+    }
+
+    #[test]
+    fn one_pixel_in_a_hundred_is_the_maximum_and_no_percentile() {
+        let errors = found(|index, value| if index == 9 { 3.0 * value } else { value });
+        let percentiles = errors.percentiles.unwrap();
+        assert_eq!((percentiles.p50, percentiles.p99, percentiles.max), (0.0, 0.0, 2.0));
+        assert_eq!(errors.of_pixels.iter().position(|error| *error == 2.0), Some(9));
+    }
+
+    #[test]
+    fn what_is_dark_is_compared_with_a_part_of_the_mean() {
+        let truth = Truth { pixels: vec![DVec3::ZERO, DVec3::splat(200.0)] };
+        let errors = Errors::new(&[[0.0, 0.0, 0.5], [200.0; 3]], &truth);
+        assert_eq!(errors.of_pixels, [0.5 / (FLOOR * 100.0), 0.0]);
+    }
+
+    #[test]
+    fn what_is_no_number_is_infinitely_wrong() {
+        for wrong in [f64::NAN, f64::INFINITY] {
+            assert_eq!(found(|index, value| if index == 0 { wrong } else { value }).of_pixels[0], f64::INFINITY);
+        }
+        let black = Truth { pixels: vec![DVec3::ZERO] };
+        assert_eq!(Errors::new(&[[0.0; 3]], &black).of_pixels, [0.0]);
+        assert_eq!(Errors::new(&[[1e-9, 0.0, 0.0]], &black).of_pixels, [f64::INFINITY]);
+    }
+}

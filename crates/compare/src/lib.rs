@@ -1,0 +1,33 @@
+//! Comparisons: the same scenes by several methods, each against light in double precision; error, time and memory, as
+//! tables and as a page with pictures, maps of the error, and error over time.
+//!
+//! | step | function | gives |
+//! | --- | --- | --- |
+//! | a `.compare.ron` file to its entries | [`read`] | [`CompareFile`] |
+//! | entries to checked scenes and planned graphs, without a GPU | [`prepare`] | [`PreparedScene`] |
+//! | pictures, truth, errors, times | [`compare`] | [`Comparison`] |
+//!
+//! The truth is computed by the twins of the shaders (`tyndall_shaders`), whatever the methods do.
+
+mod codes;
+mod color;
+mod errors;
+mod figures;
+mod file;
+mod measure;
+mod page;
+mod plot;
+mod prepare;
+mod report;
+mod run;
+mod table;
+#[cfg(test)]
+mod tests;
+mod truth;
+mod twin;
+
+pub use codes::CODES;
+pub use file::{CompareFile, Entry, read};
+pub use prepare::{PreparedScene, prepare};
+pub use report::Comparison;
+pub use run::{Error, Progress, compare, steps};

@@ -1,0 +1,13 @@
+//! Every class of mistake that this crate reports.
+
+use tyndall_document::Code;
+
+/// The graph reads a scene, and none is given.
+pub const NO_SCENE: Code = Code("no-scene");
+/// A pass is right in a homogeneous medium only, and the scene has height fog.
+pub const NOT_HOMOGENEOUS: Code = Code("not-homogeneous");
+/// A switch is on whose work needs an optional input that nothing feeds.
+pub const INPUT_NEEDED: Code = Code("input-needed");
+
+/// All of them.
+pub const CODES: &[Code] = &[INPUT_NEEDED, NO_SCENE, NOT_HOMOGENEOUS];

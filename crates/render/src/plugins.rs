@@ -1,0 +1,26 @@
+//! The registry of a run.
+
+use std::path::Path;
+
+use tyndall_document::Diagnostics;
+use tyndall_plugin::{Plugin, Registry, SearchPath, find_folders, shader_modules};
+
+/// Links and checks every pass: those of crates, and those of the folders on the search paths, which win.
+///
+/// # Errors
+/// Every mistake of every manifest and shader, each once.
+pub fn registry(crates: Vec<Plugin>, paths: &[SearchPath]) -> Result<Registry, Diagnostics> {
+    let collected = |mistakes: Vec<_>| mistakes.into_iter().collect::<Diagnostics>();
+    let folders = find_folders(paths).map_err(collected)?;
+    let shared = shader_modules(tyndall_shaders::MODULES, paths).map_err(collected)?;
+    let registry = Registry::new(crates, folders, &shared, tyndall_scene::SCENE_DATA);
+    let registry = registry.map_err(|mut mistakes| {
+        mistakes.dedup();
+        mistakes
+    })?;
+    Ok(registry.with_picture_size(picture_size))
+}
+
+fn picture_size(path: &Path) -> Option<(u32, u32)> {
+    tyndall_image::read(path).ok().map(|picture| (picture.width, picture.height))
+}

@@ -1,0 +1,85 @@
+// First pass: the light that each froxel scatters toward the eye, per metre.
+//
+//   S    sigma_s * sum over the lights of p(w) E e^(-sigma_t r), W/(sr m^3)
+//   E    irradiance at the point, I/r^2 of point and spot lights, W/m^2
+//   r    way of the light through the medium, m; 0 of a directional light
+//   w    sin^2 of half the scattering angle
+//   V    volume of a froxel, or of its part that a point stands for, m^3
+//   a    radius of a ball of that volume, m
+//
+// The light-side extinction is exact, which engines leave out. A point cannot stand for a froxel that a lamp is in: over a
+// ball of radius a about the lamp the mean of 1/r^2 is 3/a^2, so r is floored at a/sqrt(3), and what the froxel scatters
+// in all is right. What remains is the method's own: one value for all of a froxel, and values mixed between froxels.
+#import scene
+#import medium
+#import phase
+#import lights
+#import "grid.wgsl"
+
+override points: u32 = 1;
+
+struct Params {
+    width: u32,
+    height: u32,
+    slices: u32,
+    near: f32,
+    far: f32,
+}
+
+var<uniform> params: Params;
+var<uniform> camera: Camera;
+var<uniform> medium: Medium;
+var<uniform> phase: Phase;
+var<storage, read> lights: Lights;
+var scattered: texture_storage_3d<rgba32float, write>;
+var<storage, read_write> grid: Grid;
+
+// S of one light without sigma_s; `least` is the least r^2, m^2.
+fn scattered_by(light: Light, position: vec3<f32>, direction: vec3<f32>, least: f32) -> vec3<f32> {
+    let incident = incident_light(light, position);
+    let half_difference = 0.5 * (incident.to_light - direction);
+    let w = dot(half_difference, half_difference);
+    let r2 = incident.way * incident.way;
+    let floored = select(r2 / max(r2, least), 1.0, light.kind == DIRECTIONAL);
+    return phase_at(phase, w) * floored * incident.irradiance * transmittance(medium, incident.way);
+}
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let size = vec3<u32>(params.width, params.height, params.slices);
+    // a far end that is none would leave nothing to divide by
+    let shared_grid = Grid(params.near, max(params.far, 1.001 * params.near), 0.0, 0.0);
+    let start = distance_of_border(shared_grid, f32(id.z), size.z);
+    let end = distance_of_border(shared_grid, f32(id.z + 1u), size.z);
+    let column = vec2<f32>(size.xy);
+    let count = points * points * points;
+    // of the rectangle that the view cuts out at distance 1, for one column: the columns at its corners are thinner
+    let solid_angle = 4.0 * length(camera.right) * length(camera.up) / (column.x * column.y);
+    let volume = solid_angle * (end * end * end - start * start * start) / (3.0 * f32(count));
+    // 3/(4 pi)
+    let a = pow(volume * 0.238732415, 1.0 / 3.0);
+    var sum = vec3<f32>(0.0);
+    // the middles of points^3 equal parts; why the test stands at the end: see shaders/airlight.wgsl
+    var i = 0u;
+    loop {
+        let part = vec3<u32>(i, i / points, i / (points * points)) % points;
+        let offset = (vec3<f32>(part) + 0.5) / f32(points);
+        let ray = ray_of_point(camera, (vec2<f32>(id.xy) + offset.xy) / column);
+        let position = ray.origin + mix(start, end, offset.z) * ray.direction;
+        // a list without lights holds one of intensity 0
+        var light = 0u;
+        loop {
+            sum += scattered_by(lights.items[light], position, ray.direction, a * a / 3.0);
+            light++;
+            if light >= lights.count { break; }
+        }
+        i++;
+        if i >= count { break; }
+    }
+    if all(id < size) {
+        textureStore(scattered, id, vec4<f32>(medium.scattering * sum / f32(count), 1.0));
+    }
+    if all(id == vec3<u32>(0u)) {
+        grid = shared_grid;
+    }
+}
