@@ -25,6 +25,11 @@ var glow: texture_2d<f32>;
 var coefficients: texture_2d<f32>;
 var table: texture_storage_2d_array<rgba32float, write>;
 
+// An angle from the sine of its half: asin() of software Vulkan is off by 1e-4, which is much of a sharp lobe.
+fn angle_of(sine_of_half: f32) -> f32 {
+    return 2.0 * atan2(sine_of_half, sqrt(max(1.0 - sine_of_half * sine_of_half, 0.0)));
+}
+
 // J of a row by its series.
 fn zonal_sum(n: f32, theta: f32, row: u32) -> f32 {
     let terms = textureDimensions(coefficients).x;
@@ -90,7 +95,7 @@ struct Node {
 
 fn node_across(lobe: CosineLobe, theta: f32, index: u32) -> Node {
     let least = max(exp(-REACH_EXPONENT / max(lobe.exponent, 1e-3)), lobe.cos_cutoff);
-    let reach = 2.0 * asin(sqrt(0.5 * (1.0 - select(least, lobe.cos_cutoff, lobe.exponent == 0.0))));
+    let reach = angle_of(sqrt(0.5 * (1.0 - select(least, lobe.cos_cutoff, lobe.exponent == 0.0))));
     let low = max(theta - reach, 0.0);
     let width = min(theta + reach, PI) - low;
     let step = f32(index) - ACROSS_HALF;
@@ -99,9 +104,12 @@ fn node_across(lobe: CosineLobe, theta: f32, index: u32) -> Node {
     let share = select(1.0, e, step < 0.0) / (1.0 + e);
     let change = 2.0 * e / ((1.0 + e) * (1.0 + e));
     let gamma = clamp(low + width * share, 1e-7, PI - 1e-6);
-    let at = clamp((log(tan(0.5 * gamma)) - FIRST_NODE) / NODE_STEP, 1.0, f32(textureDimensions(glow).x) - 3.0);
+    let sought = (log(tan(0.5 * gamma)) - FIRST_NODE) / NODE_STEP;
+    let at = clamp(sought, 1.0, f32(textureDimensions(glow).x) - 3.0);
+    // behind the last node, away from the light, the glow falls like pi - gamma
+    let beyond = exp(-NODE_STEP * max(sought - at, 0.0));
     let second = floor(at);
-    return Node(u32(second) - 1u, at - second, azimuthal_sum(lobe, theta, gamma) * change * width * ACROSS_STEP);
+    return Node(u32(second) - 1u, at - second, azimuthal_sum(lobe, theta, gamma) * change * width * ACROSS_STEP * beyond);
 }
 
 // The glow of a row at a node, cubic between its own nodes.
@@ -134,8 +142,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let is_spot = lobe.is_spot != 0u;
     let zonal = n <= ZONAL_MOST && !is_spot;
     let axis = angle_axis(lobe_width(n, select(-1.0, lobe.cos_cutoff, is_spot)), f32(size.x));
-    let theta0 = 2.0 * asin(sine_of_half_at(axis, f32(id.x)));
-    let theta1 = 2.0 * asin(sine_of_half_at(axis, f32(id.x + 1u)));
+    let theta0 = angle_of(sine_of_half_at(axis, f32(id.x)));
+    let theta1 = angle_of(sine_of_half_at(axis, f32(id.x + 1u)));
     if used && !zonal {
         for (var i = id.y; i < ACROSS; i += POINTS) {
             across[0][i] = node_across(lobe, theta0, i);

@@ -22,6 +22,8 @@ pub(super) enum Range {
     Unit,
     /// Between the two, both excluded.
     Between(f64, f64),
+    /// Between the two, both included.
+    Within(f64, f64),
     /// Above 0, up to a value that is included.
     UpTo(f64),
 }
@@ -35,6 +37,7 @@ impl Range {
             Range::Positive => value as f32 > 0.0,
             Range::Unit => (0.0..=1.0).contains(&value),
             Range::Between(low, high) => value > low && value < high,
+            Range::Within(low, high) => (low..=high).contains(&value),
             Range::UpTo(high) => value > 0.0 && value <= high,
         }
     }
@@ -46,6 +49,7 @@ impl Range {
             Range::Positive => "be above 0".to_owned(),
             Range::Unit => "lie in 0..1".to_owned(),
             Range::Between(low, high) => format!("lie between {low} and {high}, both excluded"),
+            Range::Within(low, high) => format!("lie in {low}..{high}"),
             Range::UpTo(high) => format!("be above 0 and at most {high}"),
         }
     }

@@ -94,7 +94,7 @@ fn worst(found: &[Vec<[f64; 3]>], truth: &[[Vec<f64>; 3]]) -> f64 {
     worst
 }
 
-/// The project's promise is 1 % of the peak for Lambert and 2 % for Phong.
+/// The project's promise is 1 % of the peak for Lambert and 2 % for Phong; half of that is asked here.
 #[test]
 fn lambert_and_phong_for_every_phase_function() {
     let desk = Desk::new(&SHININESSES);
@@ -111,7 +111,7 @@ fn lambert_and_phong_for_every_phase_function() {
         }
         let listed: Vec<String> = errors.iter().map(|error| format!("{error:.1e}")).collect();
         println!("{text}: Lambert and {:?}: {}", &SHININESSES[1..], listed.join(", "));
-        assert!(errors.iter().all(|error| *error < 4e-3), "{text}: {errors:?}");
+        assert!(errors[0] < 5e-3 && errors[1..].iter().all(|error| *error < 1e-2), "{text}: {errors:?}");
     }
 }
 
@@ -218,8 +218,8 @@ fn a_sun_in_isotropic_haze_lights_all_sides_alike() {
 fn spots() {
     let desk = Desk::new(&SHININESSES);
     let kind = Phase::HenyeyGreenstein { g: 0.5 };
-    let mut worst_of_all = 0.0_f64;
-    for (exponent, cutoff) in [(0.0, 150.0), (1.0, 90.0), (8.0, 30.0), (0.0, 20.0), (64.0, 90.0)] {
+    let [mut inside, mut outside] = [0.0_f64; 2];
+    for (exponent, cutoff) in [(0.0, 90.0), (8.0, 30.0), (64.0, 90.0)] {
         // how far the axis is from the way to the surface, degrees
         for (past, d) in [(0.0, 4.0), (20.0, 4.0), (45.0, 4.0), (90.0, 4.0), (20.0, 40.0)] {
             let turned = |degrees: f64| DVec3::new(degrees.to_radians().sin(), -degrees.to_radians().cos(), 0.0);
@@ -271,8 +271,10 @@ fn spots() {
                 "cos^{exponent} in {cutoff} degrees, {past} degrees past, {d} m: Lambert {:.3}, n = 20 {:.3}",
                 errors[0], errors[1]
             );
-            worst_of_all = worst_of_all.max(errors[0]).max(errors[1]);
+            let worst = if past == 0.0 { &mut inside } else { &mut outside };
+            *worst = worst.max(errors[0]).max(errors[1]);
         }
     }
-    assert!(worst_of_all < 10.0, "{worst_of_all}");
+    // on the axis the approximation holds; beside a beam the side that the light comes from is not known
+    assert!(inside < 0.06 && outside < 0.65, "{inside}, {outside}");
 }
