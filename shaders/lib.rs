@@ -5,6 +5,7 @@
 //! `g > 0` forward, extinction and scattering in 1/m, radiance in W/(sr m²).
 
 pub mod airlight;
+pub mod airlight_table;
 pub mod colour;
 pub mod cone;
 pub mod height_fog;
@@ -16,10 +17,12 @@ pub mod quadrature;
 pub mod ray;
 pub mod reflection;
 pub mod scene;
+pub mod surface_table;
 
 /// Every shared module: its name, as in `#import name`, and its text.
 pub const MODULES: &[(&str, &str)] = &[
     ("airlight", include_str!("airlight.wgsl")),
+    ("airlight_table", include_str!("airlight_table.wgsl")),
     ("colour", include_str!("colour.wgsl")),
     ("cone", include_str!("cone.wgsl")),
     ("height_fog", include_str!("height_fog.wgsl")),
@@ -30,4 +33,5 @@ pub const MODULES: &[(&str, &str)] = &[
     ("ray", include_str!("ray.wgsl")),
     ("reflection", include_str!("reflection.wgsl")),
     ("scene", include_str!("scene.wgsl")),
+    ("surface_table", include_str!("surface_table.wgsl")),
 ];

@@ -177,7 +177,7 @@ fn azimuthal_sum(n: f64, theta: f64, gamma: f64) -> f64 {
 }
 
 thread_local! {
-    static RULE: Vec<(f64, f64)> = gauss_legendre(48);
+    static RULE: Vec<(f64, f64)> = gauss_legendre(40);
 }
 
 /// Any light, direction by direction: the airlight of `airlight.rs` in each, in polar coordinates about the way to the

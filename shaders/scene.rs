@@ -3,6 +3,19 @@
 use crate::phase::PhaseTable;
 use glam::DVec3;
 
+/// What passes see of a scene at one time, triangles and materials apart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// Where the picture is taken from.
+    pub camera: Camera,
+    /// What fills space; extinction 0 is none.
+    pub medium: Medium,
+    /// What a ray that meets nothing sees behind the medium, W/(sr m²).
+    pub background: DVec3,
+    /// In the order of the scene.
+    pub lights: Vec<Light>,
+}
+
 /// A pinhole camera: twin of `Camera`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {

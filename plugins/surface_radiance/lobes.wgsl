@@ -25,18 +25,22 @@ var glow: texture_2d<f32>;
 var coefficients: texture_2d<f32>;
 var table: texture_storage_2d_array<rgba32float, write>;
 
-// Of two rows, the sum of the series.
-fn zonal_sum(n: f32, theta: f32, rows: vec2<u32>) -> vec2<f32> {
+// An angle from the sine of its half: asin() of software Vulkan is off by 1e-4, which is much of a sharp lobe.
+fn angle_of(sine_of_half: f32) -> f32 {
+    return 2.0 * atan2(sine_of_half, sqrt(max(1.0 - sine_of_half * sine_of_half, 0.0)));
+}
+
+// J of a row by its series.
+fn zonal_sum(n: f32, theta: f32, row: u32) -> f32 {
     let terms = textureDimensions(coefficients).x;
     let cosine = cos(theta);
-    var sum = vec2<f32>(0.0);
+    var sum = 0.0;
     // P_(l-1), P_l; K_l, K_(l+1), by K_(l+2) = K_l (n-l)/(n+l+3)
     var p = vec2<f32>(0.0, 1.0);
     var k = 2.0 * PI * vec2<f32>(1.0 / (n + 1.0), 1.0 / (n + 2.0));
     for (var l = 0u; l < terms; l++) {
-        let f = vec2<f32>(textureLoad(coefficients, vec2<u32>(l, rows.x), 0).x, textureLoad(coefficients, vec2<u32>(l, rows.y), 0).x);
         let degree = f32(l);
-        sum += (2.0 * degree + 1.0) / (4.0 * PI) * k.x * p.y * f;
+        sum += (2.0 * degree + 1.0) / (4.0 * PI) * k.x * p.y * textureLoad(coefficients, vec2<u32>(l, row), 0).x;
         p = vec2<f32>(p.y, ((2.0 * degree + 1.0) * cosine * p.y - degree * p.x) / (degree + 1.0));
         k = vec2<f32>(k.y, k.x * (n - degree) / (n + degree + 3.0));
     }
@@ -74,53 +78,61 @@ fn azimuthal_sum(lobe: CosineLobe, theta: f32, gamma: f32) -> f32 {
     return 4.0 * end * width / f32(AZIMUTHS) * sum;
 }
 
-// The glow of two rows between nodes, cubic.
-fn glow_between(gamma: f32, rows: vec2<u32>) -> vec2<f32> {
-    let last = f32(textureDimensions(glow).x) - 3.0;
-    let at = clamp((log(tan(0.5 * gamma)) - FIRST_NODE) / NODE_STEP, 1.0, last);
-    let node = u32(at);
-    let x = at - f32(node);
-    let weights = vec4<f32>(-x * (x - 1.0) * (x - 2.0) / 6.0, (x + 1.0) * (x - 1.0) * (x - 2.0) / 2.0,
-        -(x + 1.0) * x * (x - 2.0) / 2.0, (x + 1.0) * x * (x - 1.0) / 6.0);
-    var values = vec2<f32>(0.0);
-    for (var i = 0u; i < 4u; i++) {
-        let value = vec2<f32>(textureLoad(glow, vec2<u32>(node + i - 1u, rows.x), 0).x, textureLoad(glow, vec2<u32>(node + i - 1u, rows.y), 0).x);
-        values += weights[i] * value;
-    }
-    return values;
-}
-
-// Half the nodes across a lobe, and their step in s, gamma = middle + half the width * tanh(s): they crowd at the light.
-const ACROSS: i32 = 40;
+// Nodes across a sharp lobe, and half as many on either side of the middle; gamma = middle + half the width * tanh(s), with
+// s in equal steps: they crowd at the light.
+const ACROSS: u32 = 81u;
+const ACROSS_HALF: f32 = 40.0;
 const ACROSS_STEP: f32 = 0.16;
+// Where cos^n is e^-18 a lobe ends.
 const REACH_EXPONENT: f32 = 18.0;
 
-fn sharp_lobe(lobe: CosineLobe, theta: f32, rows: vec2<u32>) -> vec2<f32> {
-    // where cos^n is e^-18, or the cutoff
-    let least = max(exp(-REACH_EXPONENT / max(lobe.exponent, 1e-3)), lobe.cos_cutoff);
-    let reach = 2.0 * asin(sqrt(0.5 * (1.0 - select(least, lobe.cos_cutoff, lobe.exponent == 0.0))));
-    let low = max(theta - reach, 0.0);
-    let width = min(theta + reach, PI) - low;
-    var sum = vec2<f32>(0.0);
-    for (var i = -ACROSS; i <= ACROSS; i++) {
-        let e = exp(-2.0 * ACROSS_STEP * abs(f32(i)));
-        // the share of the width on this side of the node, and its change with s
-        let share = select(1.0 / (1.0 + e), e / (1.0 + e), i < 0);
-        let gamma = clamp(low + width * share, 1e-7, PI - 1e-6);
-        sum += glow_between(gamma, rows) * (azimuthal_sum(lobe, theta, gamma) * 2.0 * e / ((1.0 + e) * (1.0 + e)));
-    }
-    return sum * width * ACROSS_STEP;
+// A node: the first of the four nodes of the glow around it, how far it is beyond the second, and its weight.
+struct Node {
+    first: u32,
+    within: f32,
+    weight: f32,
 }
 
-@compute @workgroup_size(8, 8, 1)
+fn node_across(lobe: CosineLobe, theta: f32, index: u32) -> Node {
+    let least = max(exp(-REACH_EXPONENT / max(lobe.exponent, 1e-3)), lobe.cos_cutoff);
+    let reach = angle_of(sqrt(0.5 * (1.0 - select(least, lobe.cos_cutoff, lobe.exponent == 0.0))));
+    let low = max(theta - reach, 0.0);
+    let width = min(theta + reach, PI) - low;
+    let step = f32(index) - ACROSS_HALF;
+    let e = exp(-2.0 * ACROSS_STEP * abs(step));
+    // the share of the width on this side of the node, and its change with s
+    let share = select(1.0, e, step < 0.0) / (1.0 + e);
+    let change = 2.0 * e / ((1.0 + e) * (1.0 + e));
+    let gamma = clamp(low + width * share, 1e-7, PI - 1e-6);
+    let sought = (log(tan(0.5 * gamma)) - FIRST_NODE) / NODE_STEP;
+    let at = clamp(sought, 1.0, f32(textureDimensions(glow).x) - 3.0);
+    // behind the last node, away from the light, the glow falls like pi - gamma
+    let beyond = exp(-NODE_STEP * max(sought - at, 0.0));
+    let second = floor(at);
+    return Node(u32(second) - 1u, at - second, azimuthal_sum(lobe, theta, gamma) * change * width * ACROSS_STEP * beyond);
+}
+
+// The glow of a row at a node, cubic between its own nodes.
+fn glow_at(node: Node, row: u32) -> f32 {
+    let x = node.within;
+    let weights = vec4<f32>(-x * (x - 1.0) * (x - 2.0) / 6.0, (x + 1.0) * (x - 1.0) * (x - 2.0) / 2.0,
+        -(x + 1.0) * x * (x - 2.0) / 2.0, (x + 1.0) * x * (x - 1.0) / 6.0);
+    return dot(weights, vec4<f32>(textureLoad(glow, vec2<u32>(node.first, row), 0).x,
+        textureLoad(glow, vec2<u32>(node.first + 1u, row), 0).x, textureLoad(glow, vec2<u32>(node.first + 2u, row), 0).x,
+        textureLoad(glow, vec2<u32>(node.first + 3u, row), 0).x));
+}
+
+// One workgroup for each pair of angles of a layer: a thread for each depth, and for the directional light at the end.
+const POINTS: u32 = 97u;
+
+// Nodes across the lobe at the first and at the second angle.
+var<workgroup> across: array<array<Node, ACROSS>, 2>;
+// What each thread has found, at both angles.
+var<workgroup> found: array<vec2<f32>, POINTS>;
+
+@compute @workgroup_size(1, POINTS, 1)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = textureDimensions(table);
-    if any(id.xy >= size) {
-        return;
-    }
-    let depths = size.y - 1u;
-    // the last row is the directional light's, which stands behind the last depth
-    let rows = select(vec2<u32>(id.y, id.y + 1u), vec2<u32>(id.y + 1u), id.y == depths);
     let used = id.z <= cosine_lobes.count;
     var lobe = CosineLobe(1.0, 0.0, 0u, 0u);
     if id.z > 0u && used {
@@ -128,20 +140,35 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let n = lobe.exponent;
     let is_spot = lobe.is_spot != 0u;
-    let axis = angle_axis(lobe_width(n, select(-1.0, lobe.cos_cutoff, is_spot)), f32(size.x));
-    let theta0 = 2.0 * asin(sine_of_half_at(axis, f32(id.x)));
-    let theta1 = 2.0 * asin(sine_of_half_at(axis, f32(id.x + 1u)));
-    var corners = vec4<f32>(0.0);
     let zonal = n <= ZONAL_MOST && !is_spot;
+    let axis = angle_axis(lobe_width(n, select(-1.0, lobe.cos_cutoff, is_spot)), f32(size.x));
+    let theta0 = angle_of(sine_of_half_at(axis, f32(id.x)));
+    let theta1 = angle_of(sine_of_half_at(axis, f32(id.x + 1u)));
+    if used && !zonal {
+        for (var i = id.y; i < ACROSS; i += POINTS) {
+            across[0][i] = node_across(lobe, theta0, i);
+            across[1][i] = node_across(lobe, theta1, i);
+        }
+    }
+    workgroupBarrier();
+    var sums = vec2<f32>(0.0);
     if used && zonal {
-        corners = vec4<f32>(zonal_sum(n, theta0, rows), zonal_sum(n, theta1, rows));
+        sums = vec2<f32>(zonal_sum(n, theta0, id.y), zonal_sum(n, theta1, id.y));
     }
     if used && !zonal {
-        corners = vec4<f32>(sharp_lobe(lobe, theta0, rows), sharp_lobe(lobe, theta1, rows));
+        for (var i = 0u; i < ACROSS; i++) {
+            sums.x += across[0][i].weight * glow_at(across[0][i], id.y);
+            sums.y += across[1][i].weight * glow_at(across[1][i], id.y);
+        }
     }
+    let unit = select(2.0 * PI / (n + 1.0), textureLoad(coefficients, vec2<u32>(0u, id.y), 0).x, is_spot);
     // what a series leaves of a value near 0 may be below it
-    let whole = vec2<f32>(textureLoad(coefficients, vec2<u32>(0u, rows.x), 0).x, textureLoad(coefficients, vec2<u32>(0u, rows.y), 0).x);
-    let unit = select(vec2<f32>(2.0 * PI / (n + 1.0)), whole, is_spot);
-    let scaled = max(corners.xzyw / unit.xxyy, vec4<f32>(0.0));
-    textureStore(table, id.xy, id.z, scaled);
+    found[id.y] = max(sums / unit, vec2<f32>(0.0));
+    workgroupBarrier();
+    // the last two threads have no cell of their own: one is the last depth, one the directional light's, the last row
+    if id.y + 2u < POINTS {
+        textureStore(table, id.xy, id.z, vec4<f32>(found[id.y], found[id.y + 1u]));
+    } else if id.y + 1u == POINTS {
+        textureStore(table, vec2<u32>(id.x, size.y - 1u), id.z, vec4<f32>(found[id.y], found[id.y]));
+    }
 }

@@ -26,8 +26,8 @@ const NODE_STEP: f32 = 0.075;
 
 // ln(v - a), from where nothing is left out to where nothing comes.
 const FIRST_STEP: f32 = -14.0;
-const STEPS: u32 = 140u;
-const STEP: f32 = 0.2;
+const STEPS: u32 = 113u;
+const STEP: f32 = 0.25;
 
 var<uniform> phase: Phase;
 var glow: texture_storage_2d<r32float, write>;

@@ -34,6 +34,10 @@ pub(crate) enum Verb {
     Compare(Compare),
     /// Print the numbers of one pixel of one port
     Probe(Probe),
+    /// Run image tests, pass by pass: the first pass that diverges is named
+    Test(Test),
+    /// Compare two image files
+    Diff(Diff),
     /// List the adapters of this machine
     Adapters,
     /// Write a commented graph or scene to start from
@@ -51,6 +55,7 @@ impl Verb {
             Verb::Bench(verb) => verb.adapter.as_deref(),
             Verb::Compare(verb) => verb.adapter.as_deref(),
             Verb::Probe(verb) => verb.adapter.as_deref(),
+            Verb::Test(verb) => verb.adapter.as_deref(),
             _ => None,
         }
     }
@@ -223,6 +228,72 @@ pub(crate) struct Probe {
     /// The adapter whose name holds this
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Test {
+    /// Test files, or folders that hold some; the working directory without any
+    #[arg(value_name = "PATH")]
+    pub paths: Vec<PathBuf>,
+    /// Only tests whose path holds TEXT
+    #[arg(long, value_name = "TEXT")]
+    pub filter: Option<String>,
+    /// Only ports that match PATTERN: `air.radiance`, `air.*`
+    #[arg(long, value_name = "PATTERN")]
+    pub tap: Option<String>,
+    /// Make what is rendered the golden, where that is missing, different or stale
+    #[arg(long, conflicts_with_all = ["isolate", "size", "no_goldens"])]
+    pub bless: bool,
+    /// Also bless goldens that were made on another class of adapters
+    #[arg(long, requires = "bless")]
+    pub any_adapter: bool,
+    /// Write pages with pictures into DIR; DIR/index.html needs no server
+    #[arg(long, value_name = "DIR")]
+    pub report: Option<PathBuf>,
+    /// Write the figures to FILE, and beside it the same as JUnit XML
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+    /// Tests at a time
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=64))]
+    pub jobs: u16,
+    /// Run every pass alone, with its inputs from goldens
+    #[arg(long)]
+    pub isolate: bool,
+    /// Leave goldens out: properties, references on the CPU and relations alone
+    #[arg(long)]
+    pub no_goldens: bool,
+    /// Another size than the tests say, 32x32 say; goldens are left out
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<(u32, u32)>,
+    /// Render again in another valid order, drawn by SEED: every port must be bit-equal
+    #[arg(long, value_name = "SEED")]
+    pub shuffle: Option<u64>,
+    /// Render again from memory that holds NaN before it is first written
+    #[arg(long)]
+    pub poison: bool,
+    /// Render again without ports that share memory
+    #[arg(long)]
+    pub no_sharing: bool,
+    /// Render again, so many times
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=1000))]
+    pub repeat: u32,
+    /// The adapter whose name holds this
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Diff {
+    /// An image: .exr, .png, .hdr or .npy
+    #[arg(value_name = "A")]
+    pub image: PathBuf,
+    /// The image that it is held against
+    #[arg(value_name = "B")]
+    pub reference: PathBuf,
+    /// How far A may be from B, as in a test file: `Exact`, `RelativeRmse(1e-3)`, `Absolute(tolerance: 0.01)`, `Flip(mean: 0.01)`.
+    /// More than one may be given
+    #[arg(long, value_name = "METRIC")]
+    pub by: Vec<String>,
 }
 
 #[derive(Debug, Subcommand)]

@@ -18,6 +18,18 @@ use tyndall_plugin::Plugin;
 use crate::cli::Arguments;
 use crate::failure::Failure;
 
+/// The plugins that the program ships.
+pub fn shipped() -> Vec<fn() -> Plugin> {
+    vec![
+        tyndall_core::plugin as fn() -> Plugin,
+        tyndall_aerial::plugin,
+        tyndall_airlight::plugin,
+        tyndall_surface_radiance::plugin,
+        tyndall_froxel::plugin,
+        tyndall_march::plugin,
+    ]
+}
+
 /// The program, and the plugins that are compiled into it.
 pub struct App {
     plugins: Vec<fn() -> Plugin>,
@@ -27,15 +39,7 @@ pub struct App {
 impl App {
     /// The program with the plugins that it ships.
     pub fn new() -> Self {
-        let plugins = vec![
-            tyndall_core::plugin as fn() -> Plugin,
-            tyndall_aerial::plugin,
-            tyndall_airlight::plugin,
-            tyndall_surface_radiance::plugin,
-            tyndall_froxel::plugin,
-            tyndall_march::plugin,
-        ];
-        Self { plugins, started: Instant::now() }
+        Self { plugins: shipped(), started: Instant::now() }
     }
 
     /// Adds a plugin.

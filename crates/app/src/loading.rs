@@ -16,6 +16,7 @@ pub(crate) fn load(arguments: &GraphArguments, registry: &Registry) -> Result<Lo
     let loaded = try_load(arguments, registry, &mut out);
     if let Some(loaded) = &loaded {
         loaded.warn_of_needs(registry, &mut out);
+        loaded.warn_of_limits(registry, &mut out);
     }
     out.sort();
     out.dedup();

@@ -72,7 +72,7 @@ pub(crate) fn plot(title: &str, error_name: &str, points: &[Point]) -> Option<St
     for point in &points {
         mark(&mut svg, &x, &y, point, front.contains(&point));
     }
-    labels(&mut svg, &x, &y, &points);
+    labels(&mut svg, &x, &y, &points, &front);
     svg += "</svg>\n";
     Some(svg)
 }
@@ -179,6 +179,16 @@ fn step(svg: &mut String, x: &Axis, y: &Axis, front: &[&Point]) {
     *svg += &format!("<path class=\"front\" d=\"{path}H{}\"/>\n", WIDTH - RIGHT);
 }
 
+/// Where the front runs level, a little higher than its line.
+fn treads(x: &Axis, y: &Axis, front: &[&Point]) -> Vec<Area> {
+    let ends = front.iter().skip(1).map(|point| x.at(point.time)).chain([WIDTH - RIGHT]);
+    let tread = |(point, end): (&&Point, f64)| {
+        let start = x.at(point.time);
+        Area { x: start, y: y.at(point.error) - 2.0, width: end - start, height: 4.0 }
+    };
+    front.iter().zip(ends).map(tread).collect()
+}
+
 fn families(svg: &mut String, x: &Axis, y: &Axis, points: &[Point]) {
     let count = points.iter().map(|point| point.family + 1).max().unwrap_or_default();
     for family in 0..count {
@@ -225,12 +235,13 @@ impl Area {
     }
 }
 
-/// Each label beside its mark, where it covers least of the marks and of the labels before it.
-fn labels(svg: &mut String, x: &Axis, y: &Axis, points: &[Point]) {
+/// Each label beside its mark, where it covers least of the marks, of the front and of the labels before it.
+fn labels(svg: &mut String, x: &Axis, y: &Axis, points: &[Point], front: &[&Point]) {
     let plot = Area { x: LEFT, y: TOP, width: WIDTH - RIGHT - LEFT, height: HEIGHT - BOTTOM - TOP };
     let around =
         |point: &Point| Area { x: x.at(point.time) - 6.0, y: y.at(point.error) - 6.0, width: 12.0, height: 12.0 };
     let mut taken: Vec<Area> = points.iter().map(around).collect();
+    taken.extend(treads(x, y, front));
     for point in points {
         let (at_x, at_y) = (x.at(point.time), y.at(point.error));
         // of 12 px letters

@@ -1,17 +1,31 @@
-//! OpenEXR out: 32-bit float, linear, lossless (ZIP).
+//! OpenEXR out: 32-bit or 16-bit float, linear, lossless (ZIP).
 
 use std::io;
 use std::path::Path;
 
 use exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Layer, LayerAttributes, WritableImage};
+use half::f16;
 
 use crate::{Error, Image, Meaning, linear_from_srgb, write_atomically};
 
+/// How many bits a number of an `.exr` file has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Precision {
+    /// 16: rounded to 11 significant bits, up to 65504, infinity above.
+    Half,
+    /// 32: as it is.
+    Float,
+}
+
 /// Writes the first layer of `image` with the channel names of `meaning`.
-pub(crate) fn write(path: &Path, image: &Image, meaning: Meaning) -> Result<(), Error> {
+pub(crate) fn write(path: &Path, image: &Image, meaning: Meaning, precision: Precision) -> Result<(), Error> {
+    let samples = |samples: Vec<f32>| match precision {
+        Precision::Float => FlatSamples::F32(samples),
+        Precision::Half => FlatSamples::F16(samples.into_iter().map(f16::from_f32).collect()),
+    };
     write_atomically(path, |writer| {
         let channels = planes(image, meaning).into_iter();
-        let channels = channels.map(|(name, samples)| AnyChannel::new(name, FlatSamples::F32(samples))).collect();
+        let channels = channels.map(|(name, numbers)| AnyChannel::new(name, samples(numbers))).collect();
         let size = (image.width as usize, image.height as usize);
         let layer = Layer::new(size, LayerAttributes::default(), Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels));
         exr::prelude::Image::from_layer(layer).write().to_buffered(writer).map_err(io_error)

@@ -27,6 +27,7 @@ mod srgb;
 
 pub use atomic::{Writer, write_atomically, write_bytes};
 pub use error::{Error, Kind};
+pub use exr_write::Precision;
 pub use frames::{frame_path, has_frame_number};
 pub use image::{Image, Meaning};
 pub use kind::{FileKind, supported};
@@ -50,11 +51,20 @@ pub fn write(path: &Path, image: &Image, meaning: Meaning) -> Result<(), Error> 
         return Err(Error::new(Kind::Usage, path, message));
     }
     match kind {
-        FileKind::Exr => exr_write::write(path, image, meaning),
+        FileKind::Exr => exr_write::write(path, image, meaning, Precision::Float),
         FileKind::Png => png::write(path, image, meaning),
         FileKind::Hdr => hdr::write(path, image, meaning),
         FileKind::Npy => npy::write_image(path, image, meaning),
     }
+}
+
+/// Writes `image` as an `.exr` file with numbers of this precision, whole or not at all.
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_exr(path: &Path, image: &Image, meaning: Meaning, precision: Precision) -> Result<(), Error> {
+    image.check(path)?;
+    exr_write::write(path, image, meaning, precision)
 }
 
 /// Reads the image at `path`, in the format of the path's suffix, as linear numbers.

@@ -11,6 +11,7 @@
 mod codes;
 mod dispatch;
 mod folder;
+mod limits;
 mod manifest;
 mod pass;
 mod ports;
@@ -20,12 +21,13 @@ mod search;
 
 pub use codes::CODES;
 pub use folder::{Folder, Origin};
+pub use limits::{Limit, SceneFeature};
 pub use manifest::Version;
-pub use pass::{Plugin, RustPass, Shaders};
+pub use pass::{Plugin, Reference, ReferenceInput, RustPass, Shaders};
 pub use ports::Need;
 pub use registry::{Registry, RegistryPass};
 pub use search::{SearchPath, find_folders, shader_modules};
 
 // What a pass in Rust needs, under one roof.
-pub use tyndall_gpu::{GpuError, Kernel, Program, Raster, RasterTargets, Recorder, Setup, wgpu};
+pub use tyndall_gpu::{GpuError, Kernel, PortData, Program, Raster, RasterTargets, Recorder, Setup, wgpu};
 pub use tyndall_graph::{Resource, descriptor};

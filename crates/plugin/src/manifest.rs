@@ -6,6 +6,7 @@ use std::sync::Arc;
 use tyndall_document::{Decoder, Diagnostic, Diagnostics, Node, Source, Span, parse};
 
 use crate::codes::{BAD_PLUGIN_NAME, BAD_VERSION};
+use crate::limits::{self, Limit};
 
 /// A semantic version.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -50,6 +51,7 @@ pub(crate) struct ManifestPass {
     pub shader: String,
     pub shader_span: Span,
     pub over: Option<(String, Span)>,
+    pub limits: Vec<Limit>,
     pub ports: Vec<Entry>,
     pub params: Vec<Entry>,
     pub presets: Vec<Entry>,
@@ -107,7 +109,7 @@ fn version(decoder: &mut Decoder<'_>, node: &Node) -> Option<Version> {
 }
 
 fn pass(decoder: &mut Decoder<'_>, entry: Entry) -> Option<ManifestPass> {
-    let known = ["about", "source", "shader", "dispatch", "ports", "params", "presets"];
+    let known = ["about", "source", "shader", "dispatch", "limits", "ports", "params", "presets"];
     let fields = decoder.fields(&entry.value, "a pass", &known)?;
     let text = |decoder: &mut Decoder<'_>, name: &str| {
         fields.get(name).and_then(|node| decoder.text(node)).unwrap_or_default().to_owned()
@@ -124,6 +126,7 @@ fn pass(decoder: &mut Decoder<'_>, entry: Entry) -> Option<ManifestPass> {
     let shader = shader.and_then(|node| decoder.text(node)).map(str::to_owned);
     let over = fields.get("dispatch").and_then(|node| Some((decoder.text(node)?.to_owned(), node.span)));
     let origin = text(decoder, "source");
+    let limits = fields.get("limits").map(|node| limits::limits(decoder, node)).unwrap_or_default();
     let ports = entries(decoder, fields.get("ports"));
     let params = entries(decoder, fields.get("params"));
     let presets = entries(decoder, fields.get("presets"));
@@ -136,6 +139,7 @@ fn pass(decoder: &mut Decoder<'_>, entry: Entry) -> Option<ManifestPass> {
         shader,
         shader_span,
         over,
+        limits,
         ports,
         params,
         presets,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use tyndall_document::{Decoder, Diagnostic, Diagnostics, Fields, Node, Source, Value, near};
+use tyndall_document::{Decoder, Diagnostic, Diagnostics, Node, Source, Value, near};
 use tyndall_graph::descriptor::{
     Class, Disabled, Extent, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role, SizeRule,
 };
@@ -185,7 +185,7 @@ fn factor_of(decoder: &mut Decoder<'_>, node: &Node) -> Option<f64> {
 }
 
 /// What stands in the parentheses of a variant: one value, or several.
-fn arguments(content: &Node) -> Vec<&Node> {
+pub(crate) fn arguments(content: &Node) -> Vec<&Node> {
     match &content.value {
         Value::Tuple(items) => items.iter().collect(),
         Value::Unit => Vec::new(),

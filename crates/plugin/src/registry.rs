@@ -13,8 +13,9 @@ use tyndall_shader::{Library, check_all, link};
 use crate::codes::{BAD_DESCRIPTOR, DUPLICATE_PLUGIN, MISSING_SHADER};
 use crate::dispatch;
 use crate::folder::{Folder, MANIFEST, Origin};
+use crate::limits::Limit;
 use crate::manifest::{self, Manifest, ManifestPass, Version};
-use crate::pass::{MakeProgram, Plugin, RustPass, Shaders};
+use crate::pass::{MakeProgram, Plugin, Reference, RustPass, Shaders};
 use crate::ports::{self, Need};
 
 /// Every pass of every plugin.
@@ -36,8 +37,12 @@ pub struct RegistryPass {
     pub origin: Origin,
     /// Switches that do nothing where an optional input is not fed.
     pub needs: Vec<Need>,
+    /// What it does not do justice to.
+    pub limits: Vec<Limit>,
     /// Of its linked shaders.
     pub fingerprint: u64,
+    /// What it computes, on the CPU, where its plugin says.
+    pub reference: Option<Reference>,
     shaders: Shaders,
     make: Make,
 }
@@ -70,6 +75,11 @@ impl Registry {
             };
             if let Some((manifest, folder)) = entry {
                 builder.plugin(&manifest, &folder, plugin.passes);
+            }
+            for (pass, reference) in plugin.references {
+                if let Some(pass) = builder.registry.passes.get_mut(&pass) {
+                    pass.reference = Some(reference);
+                }
             }
         }
         for (manifest, folder) in found {
@@ -128,6 +138,7 @@ struct Candidate {
     shaders: Shaders,
     make: Make,
     needs: Vec<Need>,
+    limits: Vec<Limit>,
 }
 
 /// Collects passes and mistakes.
@@ -200,14 +211,15 @@ impl Builder<'_> {
         };
         let make = Make::Dispatch { file: pass.shader.clone(), over };
         let place = manifest.source.place(pass.name_span);
-        self.insert(manifest, folder, Candidate { descriptor, shaders, make, needs: ports::needs(pass) }, &place);
+        let (needs, limits) = (ports::needs(pass), pass.limits.clone());
+        self.insert(manifest, folder, Candidate { descriptor, shaders, make, needs, limits }, &place);
     }
 
     fn rust_pass(&mut self, manifest: &Manifest, folder: &Folder, library: &Library, pass: RustPass) {
         let place = Place::File(manifest.source.name().to_owned());
         let Some(shaders) = self.link(folder, library, &pass.shaders, &place) else { return };
         let make = Make::Rust(pass.make);
-        let candidate = Candidate { descriptor: pass.descriptor, shaders, make, needs: Vec::new() };
+        let candidate = Candidate { descriptor: pass.descriptor, shaders, make, needs: Vec::new(), limits: Vec::new() };
         self.insert(manifest, folder, candidate, &place);
     }
 
@@ -237,7 +249,7 @@ impl Builder<'_> {
 
     /// Holds a pass against its shaders, and registers it where they agree.
     fn insert(&mut self, manifest: &Manifest, folder: &Folder, candidate: Candidate, place: &Place) {
-        let Candidate { descriptor, shaders, make, needs } = candidate;
+        let Candidate { descriptor, shaders, make, needs, limits } = candidate;
         let linked: Vec<_> = shaders.0.values().map(AsRef::as_ref).collect();
         if !linked.is_empty() {
             let mut built = descriptor.clone();
@@ -262,7 +274,9 @@ impl Builder<'_> {
             plugin_about: manifest.about.clone(),
             origin: folder.origin.clone(),
             needs,
+            limits,
             fingerprint,
+            reference: None,
             shaders,
             make,
         };

@@ -2,12 +2,15 @@
 
 mod support;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use support::{LIGHTS, content, executor, gpu, planned, registry, run_all, scene, set_scene};
 use tempfile::TempDir;
 use tyndall_graph::Roots;
-use tyndall_graph::descriptor::{ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role};
+use tyndall_graph::descriptor::{
+    Class, Dimension, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role,
+};
 use tyndall_plugin::Registry;
 
 #[test]
@@ -115,54 +118,74 @@ fn is_in_range(param: &ParamDescriptor) -> bool {
     }
 }
 
-/// The pass as `tested`, all its inputs fed: from a geometry buffer's port of the same name, a value from the pass that
-/// makes such values, or else with a colour.
+/// The pass as `tested`, all its inputs fed: from a geometry buffer's port of the same name, from passes that make what
+/// only they make (values, tables, volumes), or else with a colour.
 fn graph(registry: &Registry, descriptor: &PassDescriptor, picture: &Path) -> String {
-    let mut makers = String::new();
+    let mut passes = BTreeMap::new();
+    add(registry, "tested", descriptor, picture, &mut passes);
+    format!(
+        "(version: 1, size: (4, 3), passes: {{
+            \"surfaces\": (use: \"core.gbuffer\"),
+            \"colour\": (use: \"core.constant\", params: {{ \"value\": (0.1, 2.0, 30.0) }}),
+            {}
+        }}, outputs: {{ \"one\": \"tested.{}\" }})",
+        passes.into_values().collect::<String>(),
+        descriptor.outputs().next().expect("a pass has an output").name,
+    )
+}
+
+/// Adds a pass and those that its inputs need, by name.
+fn add(
+    registry: &Registry,
+    name: &str,
+    descriptor: &PassDescriptor,
+    picture: &Path,
+    passes: &mut BTreeMap<String, String>,
+) {
     let mut inputs = Vec::new();
     for port in descriptor.inputs() {
-        let source = match &port.kind {
-            PortKind::Value { element, .. } => {
-                let (maker, made) = maker(registry, element);
-                makers += &format!("\"maker_of_{}\": (use: {maker:?}),", port.name);
-                format!("maker_of_{}.{made}", port.name)
+        assert!(!matches!(port.role, Role::History(_)), "feed the history of {}", port.name);
+        let source = match (port.name.as_str(), &port.kind) {
+            ("depth" | "normal" | "material" | "triangle", _) => format!("surfaces.{}", port.name),
+            (_, PortKind::Texture { dimension: Dimension::D2, class, .. }) if *class != Class::Data => {
+                "colour.color".to_owned()
             }
-            _ => source(port),
+            _ => {
+                let (maker, made) = maker(registry, port);
+                let maker_name = maker.name.replace('.', "_");
+                if !passes.contains_key(&maker_name) {
+                    add(registry, &maker_name, maker, picture, passes);
+                }
+                format!("{maker_name}.{made}")
+            }
         };
         inputs.push(format!("\"{}\": {source:?}", port.name));
     }
     let file = descriptor.params.iter().find(|param| matches!(param.default, ParamValue::File(_)));
     let params = file.map(|param| format!("\"{}\": {:?}", param.name, picture.display().to_string()));
-    format!(
-        "(version: 1, size: (4, 3), passes: {{
-            \"surfaces\": (use: \"core.gbuffer\"),
-            \"colour\": (use: \"core.constant\", params: {{ \"value\": (0.1, 2.0, 30.0) }}),
-            {makers}
-            \"tested\": (use: \"{}\", inputs: {{ {} }}, params: {{ {} }}),
-        }}, outputs: {{ \"one\": \"tested.{}\" }})",
+    let text = format!(
+        "{name:?}: (use: {:?}, inputs: {{ {} }}, params: {{ {} }}),\n",
         descriptor.name,
         inputs.join(", "),
-        params.unwrap_or_default(),
-        descriptor.outputs().next().expect("a pass has an output").name,
-    )
+        params.unwrap_or_default()
+    );
+    passes.insert(name.to_owned(), text);
 }
 
-/// A pass that needs nothing, and its output of this type.
-fn maker<'a>(registry: &'a Registry, element: &str) -> (&'a str, &'a str) {
-    let makes =
-        |port: &&PortDescriptor| matches!(&port.kind, PortKind::Value { element: other, .. } if other == element);
-    let alone = registry.passes().filter(|pass| pass.descriptor.inputs().next().is_none());
-    let mut made = alone.filter_map(|pass| Some((&pass.descriptor.name, pass.descriptor.outputs().find(makes)?)));
-    let (pass, port) = made.next().unwrap_or_else(|| panic!("no pass makes a value `{element}` from nothing"));
+/// A pass that makes such things, and its output: by the same name if there is one, and of fewest inputs.
+fn maker<'a>(registry: &'a Registry, wanted: &PortDescriptor) -> (&'a PassDescriptor, &'a str) {
+    let alike = |port: &PortDescriptor| match (&port.kind, &wanted.kind) {
+        (PortKind::Value { element, .. }, PortKind::Value { element: other, .. }) => element == other,
+        (PortKind::Texture { dimension, class, .. }, PortKind::Texture { dimension: other, class: meant, .. }) => {
+            dimension == other && class == meant
+        }
+        _ => false,
+    };
+    let outputs = registry.passes().flat_map(|pass| pass.descriptor.outputs().map(|port| (&*pass.descriptor, port)));
+    let made = outputs.filter(|(_, port)| matches!(port.role, Role::Output { .. }) && alike(port));
+    let best = made.min_by_key(|(pass, port)| (port.name != wanted.name, pass.inputs().count()));
+    let (pass, port) = best.unwrap_or_else(|| panic!("no pass makes what `{}` reads", wanted.name));
     (pass, &port.name)
-}
-
-fn source(port: &PortDescriptor) -> String {
-    assert!(!matches!(port.role, Role::History(_)), "feed the history of {}", port.name);
-    match port.name.as_str() {
-        "depth" | "normal" | "material" | "triangle" => format!("surfaces.{}", port.name),
-        _ => "colour.color".to_owned(),
-    }
 }
 
 /// A picture of 4 by 3 texels with three channels, all 0.5.

@@ -8,6 +8,8 @@ pub const NO_SCENE: Code = Code("no-scene");
 pub const NOT_HOMOGENEOUS: Code = Code("not-homogeneous");
 /// A switch is on whose work needs an optional input that nothing feeds.
 pub const INPUT_NEEDED: Code = Code("input-needed");
+/// The scene has something that a pass does not do justice to.
+pub const LIMIT: Code = Code("limit");
 
 /// All of them.
-pub const CODES: &[Code] = &[INPUT_NEEDED, NO_SCENE, NOT_HOMOGENEOUS];
+pub const CODES: &[Code] = &[INPUT_NEEDED, LIMIT, NO_SCENE, NOT_HOMOGENEOUS];

@@ -8,10 +8,11 @@ use std::time::Instant;
 use tyndall_document::{Diagnostic, Diagnostics, Place, Source};
 use tyndall_graph::descriptor::ParamValue;
 use tyndall_graph::{Graph, Keep, Override, Overrides, ParamSetting, Plan, PlanOptions, Roots};
-use tyndall_plugin::Registry;
+use tyndall_plugin::{Registry, SceneFeature};
 use tyndall_scene::Scene;
+use tyndall_scene::model::LightKind;
 
-use crate::codes::{INPUT_NEEDED, NO_SCENE, NOT_HOMOGENEOUS};
+use crate::codes::{INPUT_NEEDED, LIMIT, NO_SCENE, NOT_HOMOGENEOUS};
 use crate::error::Error;
 
 /// What is to be rendered.
@@ -68,6 +69,30 @@ impl Loaded {
                     out.push(warning.suggest(suggestion));
                 }
             }
+        }
+    }
+
+    /// Warns where a pass says that it does not do justice to something that the scene has.
+    pub fn warn_of_limits(&self, registry: &Registry, out: &mut Diagnostics) {
+        let Some(scene) = &self.scene else { return };
+        for pass in self.graph.passes.node_weights().filter(|pass| pass.enabled) {
+            let Some(registered) = registry.pass(&pass.descriptor().name) else { continue };
+            for limit in registered.limits.iter().filter(|limit| has(scene, limit.feature)) {
+                let message = format!("pass `{}`: {}", pass.name, limit.text);
+                out.push(Diagnostic::warning(LIMIT, self.graph.place(pass.span), message));
+            }
+        }
+    }
+}
+
+fn has(scene: &Scene, feature: SceneFeature) -> bool {
+    match feature {
+        SceneFeature::Spot => scene.lights.iter().any(|light| matches!(light.kind, LightKind::Spot { .. })),
+        SceneFeature::Directional => scene.lights.iter().any(|light| light.kind == LightKind::Directional),
+        SceneFeature::SeveralShininesses => {
+            let mut shiny = scene.materials.iter().filter(|material| material.specular.max_element() > 0.0);
+            let first = shiny.next().map(|material| material.shininess);
+            shiny.any(|material| Some(material.shininess) != first)
         }
     }
 }

@@ -30,6 +30,7 @@ mod phase_file;
 mod primitives;
 mod resolve;
 mod scene;
+mod twin;
 
 pub use self::codes::CODES;
 pub use self::cosine_lobes::COSINE_LOBES_MAX;

@@ -1,8 +1,14 @@
 //! The plugin `airlight`: light that a medium scatters once toward the eye.
 
+mod reference;
+
 use tyndall_plugin::{Plugin, folder};
 
 /// The plugin.
 pub fn plugin() -> Plugin {
-    Plugin::new("airlight", folder!("airlight": "plugin.ron", "homogeneous.wgsl"))
+    let files = folder!(
+        "airlight": "plugin.ron", "h.wgsl", "h_k.wgsl", "height_fog.wgsl",
+        "homogeneous.wgsl", "legendre.wgsl", "lookup.wgsl", "table.wgsl"
+    );
+    Plugin::new("airlight", files).reference("airlight.homogeneous", reference::homogeneous)
 }

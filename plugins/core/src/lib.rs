@@ -2,6 +2,7 @@
 
 mod gbuffer;
 mod image;
+mod reference;
 
 use tyndall_plugin::{Plugin, folder};
 
@@ -11,5 +12,13 @@ pub fn plugin() -> Plugin {
         "plugin.ron", "add.wgsl", "compose.wgsl", "constant.wgsl", "gbuffer.wgsl", "resize.wgsl", "scale.wgsl",
         "tonemap.wgsl", "visibility.wgsl",
     );
-    Plugin::new("core", files).pass(gbuffer::pass()).pass(image::pass())
+    Plugin::new("core", files)
+        .pass(gbuffer::pass())
+        .pass(image::pass())
+        .reference("core.add", reference::add)
+        .reference("core.compose", reference::compose)
+        .reference("core.constant", reference::constant)
+        .reference("core.resize", reference::resize)
+        .reference("core.scale", reference::scale)
+        .reference("core.tonemap", reference::tonemap)
 }

@@ -1,8 +1,11 @@
 //! The plugin `march`: the same light by brute force, to compare with.
 
+mod reference;
+
 use tyndall_plugin::{Plugin, folder};
 
 /// The plugin.
 pub fn plugin() -> Plugin {
     Plugin::new("march", folder!("march": "plugin.ron", "airlight.wgsl"))
+        .reference("march.airlight", reference::airlight)
 }

@@ -1,9 +1,14 @@
 //! The plugin `surface_radiance`: light that surfaces reflect toward the eye through a medium.
 
+mod reference;
+
 use tyndall_plugin::{Plugin, folder};
 
 /// The plugin.
 pub fn plugin() -> Plugin {
-    let files = folder!("surface_radiance": "plugin.ron", "lobes.wgsl", "phong.wgsl", "zonal.wgsl");
-    Plugin::new("surface_radiance", files)
+    let files = folder!(
+        "surface_radiance": "plugin.ron", "direct.wgsl", "j.wgsl", "j_k.wgsl", "j_texel.wgsl", "legendre.wgsl", "lobes.wgsl", "lookup.wgsl",
+        "phong.wgsl", "table.wgsl", "zonal.wgsl"
+    );
+    Plugin::new("surface_radiance", files).reference("surface_radiance.phong", reference::phong)
 }

@@ -4,12 +4,14 @@ mod adapters;
 mod bench;
 mod check;
 mod compare;
+mod diff;
 mod explain;
 mod new;
 mod passes;
 mod probe;
 mod render;
 mod show;
+mod test;
 mod watch;
 
 use crate::App;
@@ -28,6 +30,8 @@ pub(crate) fn run(app: &App, arguments: &Arguments) -> Result<(), Failure> {
         Verb::Bench(verb) => bench::run(app, arguments, verb),
         Verb::Compare(verb) => compare::run(app, arguments, verb),
         Verb::Probe(verb) => probe::run(app, arguments, verb),
+        Verb::Test(verb) => test::run(app, arguments, verb),
+        Verb::Diff(verb) => diff::run(verb),
         Verb::Adapters => adapters::run(),
         Verb::New { what } => new::run(what),
     }

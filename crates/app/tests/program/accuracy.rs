@@ -36,6 +36,12 @@ impl Samples {
         Self(array.data.as_chunks().0.to_vec())
     }
 
+    /// How many pixels are black in a picture and not here.
+    pub fn blackened(&self, picture: &Image) -> usize {
+        let black = |sample: &&[f32; 5]| picture.pixel(sample[0] as u32, sample[1] as u32).unwrap()[..3] == [0.0; 3];
+        self.0.iter().filter(|sample| sample[2..] != [0.0; 3]).filter(black).count()
+    }
+
     /// Relative errors of a picture; where the reference is black the picture must be, too.
     pub fn errors(&self, picture: &Image) -> Percentiles {
         assert_eq!((picture.width, picture.height), (160, 120));
@@ -75,7 +81,7 @@ fn sum_error(name: &str, picture: &Image) -> f64 {
     errors.fold(0.0, f64::max)
 }
 
-fn render(desk: &Desk, graph: &str, name: &str, term: &str, settings: &[&str]) -> Image {
+pub fn render(desk: &Desk, graph: &str, name: &str, term: &str, settings: &[&str]) -> Image {
     let scene = reference(&format!("{name}.scene.ron"));
     desk.picture(&shipped(graph), &scene, "160x120", term, settings)
 }

@@ -23,6 +23,30 @@ fn without_output_every_graph_output_goes_to_out() {
     assert!(radiance.data.chunks_exact(4).all(|pixel| pixel[3] == 1.0), "alpha is 1, in the sky too");
 }
 
+/// Light scattered onto surfaces comes from a table; where nothing feeds it, the switch says so and nothing else changes.
+#[test]
+fn a_switch_without_its_input_is_told() {
+    let desk = Desk::new();
+    let graph = std::fs::read_to_string(desk.path("fog.graph.ron")).unwrap();
+    let bare = graph.replace(", \"table\": \"lobes.table\"", "");
+    assert_ne!(bare, graph);
+    desk.put("bare.graph.ron", &bare);
+    let draw = |name: &str, more: &[&str]| {
+        desk.ends(0, &[&["render", name, "--size", "8x6", "--output", "surface=a.exr"], more].concat()).err
+    };
+    let told = draw("bare.graph.ron", &[]);
+    assert!(told.contains("warning[input-needed]") && told.contains("`table`"), "{told}");
+    let without = image(&desk, "a.exr");
+    for quiet in
+        [draw("bare.graph.ron", &["--set", "scattered=false"]), draw("fog.graph.ron", &["--set", "scattered=false"])]
+    {
+        assert!(!quiet.contains("input-needed"), "{quiet}");
+        assert_eq!(metrics::differing_bits(&image(&desk, "a.exr"), &without).unwrap(), 0);
+    }
+    assert!(!draw("fog.graph.ron", &[]).contains("input-needed"));
+    assert_ne!(metrics::differing_bits(&image(&desk, "a.exr"), &without).unwrap(), 0);
+}
+
 #[test]
 fn nothing_of_progress_is_in_a_pipe() {
     let desk = Desk::new();

@@ -87,7 +87,12 @@ pub fn executor(gpu: &Arc<Gpu>, registry: &Registry, plan: Plan) -> Executor {
 
 /// A point light and a sun over a floor with a sphere; `lights` may move.
 pub fn scene(lights: &str) -> Scene {
-    let text = format!(
+    scene_of(&scene_text(lights))
+}
+
+/// The file of [`scene`].
+pub fn scene_text(lights: &str) -> String {
+    format!(
         "(
             camera: (position: (0.0, 1.5, 6.0), look_at: (0.0, 1.0, 0.0), vertical_fov: 50.0),
             medium: (extinction: (0.05, 0.06, 0.08), albedo: (0.9, 0.8, 0.7), phase: HenyeyGreenstein(g: 0.7)),
@@ -98,7 +103,11 @@ pub fn scene(lights: &str) -> Scene {
                 (mesh: Plane(size: (20.0, 20.0))),
             ],
         )"
-    );
+    )
+}
+
+/// A scene of a file's text.
+pub fn scene_of(text: &str) -> Scene {
     let source = Source::new("test.scene.ron", text);
     match Scene::from_source(&source, Path::new("."), &tyndall_scene::Overrides::new()) {
         Ok((scene, _)) => scene,

@@ -13,7 +13,7 @@ use tyndall_plugin::{Registry, SearchPath, find_folders, shader_modules};
 use tyndall_scene::{SCENE_DATA, Scene};
 
 pub const LIGHTS: usize = 8;
-pub const ANGLES: usize = 24;
+pub const ANGLES: usize = 20;
 
 /// Between the way to the light and the axis of a lobe: from 0 to π, most of them near the light.
 pub fn angle(index: usize) -> f64 {
@@ -32,7 +32,7 @@ const MANIFEST: &str = r#"(
         "turn": (about: "A surface with one lobe, turned from each light by all angles.", shader: "turn.wgsl",
             ports: {
                 "table": (about: "Of `surface_radiance.lobes`", class: Data),
-                "radiance": (about: "x: the light; y: the angle", size: Fixed(8, 24)),
+                "radiance": (about: "x: the light; y: the angle", size: Fixed(8, 20)),
             },
             params: {
                 "layer": (about: "Of the table; 0 is Lambert", default: 0, range: (0, 32)),

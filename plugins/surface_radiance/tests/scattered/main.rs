@@ -65,19 +65,17 @@ fn vector([x, y, z]: [f64; 3]) -> String {
     format!("({x}, {y}, {z})")
 }
 
+/// What is around the surface, per light and channel, and what it is to be multiplied by.
+fn fields(kind: &Phase) -> Vec<[(Field, f64); 3]> {
+    let around = |d: f64| [0, 1, 2].map(|i| (Field::of_point(kind, EXTINCTION[i] * d), ALBEDO[i] * EXTINCTION[i] / d));
+    let sun = ALBEDO.map(|albedo| (Field::of_sun(kind), albedo));
+    distances().into_iter().map(around).chain([sun]).collect()
+}
+
 /// What reaches a surface with a lobe of factor 1, per light, channel and angle.
-fn truth(kind: &Phase, n: f64) -> Vec<[Vec<f64>; 3]> {
-    let angles = || (0..ANGLES).map(angle);
-    let mut lights: Vec<[Vec<f64>; 3]> = Vec::new();
-    for d in distances() {
-        lights.push([0, 1, 2].map(|channel| {
-            let field = Field::of_point(kind, EXTINCTION[channel] * d);
-            angles().map(|theta| ALBEDO[channel] * EXTINCTION[channel] / d * field.over_lobe(n, theta)).collect()
-        }));
-    }
-    let sun = Field::of_sun(kind);
-    lights.push(ALBEDO.map(|albedo| angles().map(|theta| albedo * sun.over_lobe(n, theta)).collect()));
-    lights
+fn truth(fields: &[[(Field, f64); 3]], n: f64) -> Vec<[Vec<f64>; 3]> {
+    let over = |(field, factor): &(Field, f64)| (0..ANGLES).map(|j| factor * field.over_lobe(n, angle(j))).collect();
+    fields.iter().map(|channels| channels.each_ref().map(over)).collect()
 }
 
 /// The largest error of each light and channel, over the largest value of all angles.
@@ -96,15 +94,16 @@ fn worst(found: &[Vec<[f64; 3]>], truth: &[[Vec<f64>; 3]]) -> f64 {
     worst
 }
 
-/// The project's promise is 1 % of the peak for Lambert and 2 % for Phong.
+/// The project's promise is 1 % of the peak for Lambert and 2 % for Phong; half of that is asked here.
 #[test]
 fn lambert_and_phong_for_every_phase_function() {
     let desk = Desk::new(&SHININESSES);
     for (text, kind) in &PHASES {
         let pictures = desk.draw(&lights(), &materials(), &format!("{}, phase: {text}", medium()));
+        let fields = fields(kind);
         let mut errors = Vec::new();
         for (lobe, n) in SHININESSES.iter().enumerate() {
-            let mut expected = truth(kind, *n);
+            let mut expected = truth(&fields, *n);
             if lobe == 0 {
                 expected.iter_mut().flatten().flatten().for_each(|value| *value /= PI);
             }
@@ -112,7 +111,7 @@ fn lambert_and_phong_for_every_phase_function() {
         }
         let listed: Vec<String> = errors.iter().map(|error| format!("{error:.1e}")).collect();
         println!("{text}: Lambert and {:?}: {}", &SHININESSES[1..], listed.join(", "));
-        assert!(errors.iter().all(|error| *error < 4e-3), "{text}: {errors:?}");
+        assert!(errors[0] < 5e-3 && errors[1..].iter().all(|error| *error < 1e-2), "{text}: {errors:?}");
     }
 }
 
@@ -219,8 +218,8 @@ fn a_sun_in_isotropic_haze_lights_all_sides_alike() {
 fn spots() {
     let desk = Desk::new(&SHININESSES);
     let kind = Phase::HenyeyGreenstein { g: 0.5 };
-    let mut worst_of_all = 0.0_f64;
-    for (exponent, cutoff) in [(0.0, 150.0), (1.0, 90.0), (8.0, 30.0), (0.0, 20.0), (64.0, 90.0)] {
+    let [mut inside, mut outside] = [0.0_f64; 2];
+    for (exponent, cutoff) in [(0.0, 90.0), (8.0, 30.0), (64.0, 90.0)] {
         // how far the axis is from the way to the surface, degrees
         for (past, d) in [(0.0, 4.0), (20.0, 4.0), (45.0, 4.0), (90.0, 4.0), (20.0, 40.0)] {
             let turned = |degrees: f64| DVec3::new(degrees.to_radians().sin(), -degrees.to_radians().cos(), 0.0);
@@ -272,8 +271,10 @@ fn spots() {
                 "cos^{exponent} in {cutoff} degrees, {past} degrees past, {d} m: Lambert {:.3}, n = 20 {:.3}",
                 errors[0], errors[1]
             );
-            worst_of_all = worst_of_all.max(errors[0]).max(errors[1]);
+            let worst = if past == 0.0 { &mut inside } else { &mut outside };
+            *worst = worst.max(errors[0]).max(errors[1]);
         }
     }
-    assert!(worst_of_all < 10.0, "{worst_of_all}");
+    // on the axis the approximation holds; beside a beam the side that the light comes from is not known
+    assert!(inside < 0.06 && outside < 0.65, "{inside}, {outside}");
 }

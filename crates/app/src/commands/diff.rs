@@ -1,0 +1,65 @@
+//! `diff`: two image files, by the metrics of image tests.
+
+use std::path::Path;
+
+use tyndall_graph::descriptor::Class;
+use tyndall_image::{FileKind, Image, metrics, srgb_from_linear, supported};
+use tyndall_testing::file::parse_metric;
+use tyndall_testing::{Metric, Picture};
+
+use crate::cli::Diff;
+use crate::failure::Failure;
+use crate::terminal;
+
+pub(crate) fn run(verb: &Diff) -> Result<(), Failure> {
+    let metrics = verb.by.iter().map(|text| parse_metric(text, &format!("--by {text}")));
+    let metrics = metrics.collect::<Result<Vec<Metric>, _>>()?;
+    let (image, reference) = (tyndall_image::read(&verb.image)?, tyndall_image::read(&verb.reference)?);
+    if let Err(why) = metrics::absolute(&image, &reference, 0.0) {
+        return Err(Failure::Usage(format!("{} and {}: {why}", verb.image.display(), verb.reference.display())));
+    }
+    let display = is_png(&verb.image)? && is_png(&verb.reference)?;
+    let metrics = if metrics.is_empty() { usual(display) } else { metrics };
+    let mut differ = false;
+    for metric in metrics {
+        // What a person sees is compared as it is shown; everything else as the numbers that the files hold.
+        let seen = matches!(metric, Metric::Flip { .. });
+        let [image, reference] = [&image, &reference].map(|image| picture(image, seen));
+        let found = metric.judge(&image, &reference);
+        differ |= !found.passed;
+        terminal::line(&format!("{}  {metric}: {}", if found.passed { "within" } else { "beyond" }, found.figures));
+    }
+    if differ { Err(Failure::Told(1)) } else { Ok(()) }
+}
+
+fn is_png(path: &Path) -> Result<bool, Failure> {
+    Ok(supported(path)? == FileKind::Png)
+}
+
+/// Without `--by`: the strictest of each.
+fn usual(display: bool) -> Vec<Metric> {
+    let mut metrics = vec![Metric::Exact, Metric::RelativeRmse { tolerance: 1e-4 }];
+    metrics.extend(display.then_some(Metric::Flip { mean: 0.005, p99: Some(0.05) }));
+    metrics
+}
+
+fn picture(image: &Image, seen: bool) -> Picture {
+    match (seen, image.channels) {
+        (true, 1) => Picture::new(shown(&spread(image)), Class::Display),
+        (true, _) => Picture::new(shown(image), Class::Display),
+        (false, 3 | 4) => Picture::new(image.clone(), Class::Color),
+        (false, _) => Picture::new(image.clone(), Class::Data),
+    }
+}
+
+/// Encoded as a screen wants it.
+fn shown(image: &Image) -> Image {
+    let channels = image.channels as usize;
+    let encode = |(index, value): (usize, &f32)| if index % channels == 3 { *value } else { srgb_from_linear(*value) };
+    Image { data: image.data.iter().enumerate().map(encode).collect(), ..*image }
+}
+
+/// Grey as a colour.
+fn spread(image: &Image) -> Image {
+    Image { channels: 3, data: image.data.iter().flat_map(|value| [*value; 3]).collect(), ..*image }
+}

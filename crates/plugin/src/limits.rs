@@ -1,0 +1,48 @@
+//! What a scene can have that a pass does not do justice to: told before anything is rendered.
+
+use tyndall_document::{Decoder, Node};
+
+use crate::ports::arguments;
+
+/// Something that a scene can have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SceneFeature {
+    /// A spot light.
+    Spot,
+    /// A directional light.
+    Directional,
+    /// Phong lobes of more than one shininess.
+    SeveralShininesses,
+}
+
+impl SceneFeature {
+    const NAMED: [(&str, Self); 3] =
+        [("Spot", Self::Spot), ("Directional", Self::Directional), ("SeveralShininesses", Self::SeveralShininesses)];
+}
+
+/// What a pass does instead, where the scene has such a thing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Limit {
+    /// What it is about.
+    pub feature: SceneFeature,
+    /// What is told.
+    pub text: String,
+}
+
+/// Reads `[Feature("text"), …]`.
+pub(crate) fn limits(decoder: &mut Decoder<'_>, node: &Node) -> Vec<Limit> {
+    let items = decoder.list(node).unwrap_or_default();
+    items.iter().filter_map(|item| limit(decoder, item)).collect()
+}
+
+fn limit(decoder: &mut Decoder<'_>, node: &Node) -> Option<Limit> {
+    let names = SceneFeature::NAMED.map(|(name, _)| name);
+    let (name, content) = decoder.variant(node, "something that a scene can have", &names)?;
+    let (_, feature) = SceneFeature::NAMED.into_iter().find(|(known, _)| *known == name)?;
+    let content = content.map(arguments).unwrap_or_default();
+    let [text] = content.as_slice() else {
+        decoder.wrong_type(node, &format!("`{name}(\"what the pass does instead\")`"));
+        return None;
+    };
+    Some(Limit { feature, text: decoder.text(text)?.to_owned() })
+}

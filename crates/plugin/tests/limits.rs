@@ -1,0 +1,47 @@
+//! What a manifest says of scenes that a pass does not do justice to.
+
+use std::sync::Arc;
+
+use tyndall_document::{Diagnostics, render_text};
+use tyndall_plugin::{Folder, Registry, SceneFeature};
+use tyndall_shader::Library;
+
+const SHADER: &str = "var result: texture_storage_2d<rgba32float, write>;
+@compute @workgroup_size(8, 8) fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    textureStore(result, id.xy, vec4<f32>(1.0));
+}";
+
+fn registry(limits: &str) -> Result<Registry, Arc<str>> {
+    let manifest = format!(
+        "(name: \"test\", version: \"0.1.0\", about: \"For tests.\", passes: {{
+    \"fill\": (about: \"Fills.\", shader: \"pass.wgsl\", limits: {limits},
+        ports: {{ \"result\": (about: \"Ones\", size: Frame(1.0)) }}),
+}})"
+    );
+    let folder = Folder::embedded("test", &[("plugin.ron", &manifest), ("pass.wgsl", SHADER)]);
+    let text = |mistakes: Diagnostics| render_text(&mistakes, false).into();
+    Registry::new(Vec::new(), vec![folder], &Library::default(), &[]).map_err(text)
+}
+
+#[test]
+fn limits_are_read() {
+    let registry = registry("[Spot(\"dark\"), SeveralShininesses(\"one\")]").unwrap_or_else(|text| panic!("{text}"));
+    let limits = &registry.pass("test.fill").expect("it was registered").limits;
+    let found: Vec<_> = limits.iter().map(|limit| (limit.feature, limit.text.as_str())).collect();
+    assert_eq!(found, [(SceneFeature::Spot, "dark"), (SceneFeature::SeveralShininesses, "one")]);
+}
+
+#[test]
+fn mistakes_have_a_place_and_a_hint() {
+    for (limits, expected) in [
+        ("[Spott(\"dark\")]", "error[unknown-variant]: `Spott` is not something that a scene can have"),
+        ("[Spott(\"dark\")]", "plugin.ron:2:61"),
+        ("[Spott(\"dark\")]", "did you mean `Spot`?"),
+        ("[Spot]", "error[wrong-type]: expected `Spot(\"what the pass does instead\")`"),
+        ("[Spot(3)]", "error[wrong-type]: expected a string, found the number 3"),
+        ("(1, 2)", "error[wrong-type]: expected a list"),
+    ] {
+        let text = registry(limits).err().unwrap_or_else(|| panic!("{limits} is accepted"));
+        assert!(text.contains(expected), "{limits}: {text}");
+    }
+}

@@ -1,0 +1,95 @@
+//! Blessing: what was rendered becomes what is expected.
+
+use crate::adapter::AdapterClass;
+use crate::golden::{self, Record};
+use crate::options::Options;
+use crate::outcome::{GOLDEN, Outcome, Problem, State};
+use crate::run::Ready;
+use crate::session::Rendered;
+
+/// Writes the goldens that are missing, different or stale, and drops those that no tap claims. A golden is written
+/// only where everything else that the test says of its port holds.
+pub(crate) fn run(
+    ready: &Ready,
+    rendered: &[Rendered],
+    adapter: AdapterClass,
+    options: &Options,
+    outcome: &mut Outcome,
+) {
+    let folder = ready.file.goldens();
+    let mut records = ready.records.clone();
+    let mut blessed = Vec::new();
+    for port in &mut outcome.ports {
+        let Some(at) = port.checks.iter().position(|check| check.what == GOLDEN) else { continue };
+        let judged = &port.checks[at].judgement;
+        if judged.passed && port.stale.is_empty() {
+            continue;
+        }
+        if port.checks.iter().any(|check| check.what != GOLDEN && !check.judgement.passed) {
+            outcome.problems.push(Problem::NotBlessed(format!("{}: something else does not hold of it", port.name)));
+            continue;
+        }
+        let before = records.get(&port.key);
+        if let Some(before) = before.filter(|before| before.adapter != adapter && !options.bless_any_adapter) {
+            let (then, now) = (before.adapter.name(), adapter.name());
+            let why = format!(
+                "{}: its golden was made on a {then} adapter, and this one is {now}: say --any-adapter",
+                port.name
+            );
+            outcome.problems.push(Problem::NotBlessed(why));
+            continue;
+        }
+        let Some(picture) = &port.actual else { continue };
+        let frame = rendered.iter().find(|rendered| rendered.frame == port.frame);
+        let made_from = frame.and_then(|frame| {
+            let tapped = ready.tapped.iter().find(|tapped| tapped.name == port.name)?;
+            frame.made_from.get(&tapped.port).copied().flatten()
+        });
+        let figures = if port.expected.is_some() { judged.figures.clone() } else { "new".to_owned() };
+        let written = golden::write(&folder, &port.key, picture).and_then(|path| {
+            let record = Record::new(&path, adapter, made_from)?;
+            records.set(&port.key, record);
+            records.write(&folder)?;
+            Ok(path)
+        });
+        match written {
+            Ok(path) => {
+                let stale = if port.stale.is_empty() {
+                    String::new()
+                } else {
+                    format!("; {} had changed", port.stale.join(", "))
+                };
+                blessed.push(format!("blessed {}: {figures}{stale}", path.display()));
+                port.checks[at].judgement.passed = true;
+                port.stale.clear();
+                if port.passed() {
+                    port.state = State::Passed;
+                }
+            }
+            Err(why) => outcome.problems.push(Problem::NotBlessed(format!("{}: {why}", port.name))),
+        }
+    }
+    if options.tap.is_none() {
+        drop_orphans(ready, &mut records, outcome, &mut blessed);
+    }
+    outcome.blessed = blessed;
+}
+
+fn drop_orphans(ready: &Ready, records: &mut golden::Records, outcome: &mut Outcome, blessed: &mut Vec<String>) {
+    let folder = ready.file.goldens();
+    let claimed = crate::run::claimed(ready);
+    for orphan in golden::orphans(&folder, &claimed) {
+        match std::fs::remove_file(&orphan) {
+            Ok(()) => blessed.push(format!("deleted {}: no tap claims it", orphan.display())),
+            Err(error) => outcome.problems.push(Problem::NotBlessed(format!("{}: {error}", orphan.display()))),
+        }
+    }
+    let keys: Vec<String> = claimed.iter().filter_map(|name| Some(name.rsplit_once('.')?.0.to_owned())).collect();
+    let before = records.clone();
+    records.retain(&|key| keys.iter().any(|kept| kept == key));
+    if *records != before
+        && let Err(why) = records.write(&folder)
+    {
+        outcome.problems.push(Problem::NotBlessed(why));
+    }
+}

@@ -1,0 +1,45 @@
+//! Every class of mistake of a test file that this crate reports; each has a fixture in `tests/fixtures`.
+
+use tyndall_document::Code;
+
+macro_rules! codes {
+    ($($(#[doc = $doc:literal])+ $name:ident = $text:literal;)+) => {
+        $($(#[doc = $doc])+ pub const $name: Code = Code($text);)+
+
+        /// All of them, in the order of this file.
+        pub const CODES: &[Code] = &[$($name),+];
+    };
+}
+
+codes! {
+    /// The file's `version` is one that this program does not know.
+    BAD_VERSION = "bad-version";
+    /// A size is no size, or larger than a golden may be.
+    BAD_SIZE = "bad-size";
+    /// Frames are no frames.
+    BAD_FRAMES = "bad-frames";
+    /// The file looks at nothing.
+    NO_TAPS = "no-taps";
+    /// A text is no pattern of `pass.port`.
+    BAD_PATTERN = "bad-pattern";
+    /// A tap says nothing about the ports that it looks at.
+    EMPTY_TAP = "empty-tap";
+    /// A pattern matches no port of the graph.
+    EMPTY_PATTERN = "empty-pattern";
+    /// A pattern matches only ports of passes that are switched off.
+    TAP_OFF = "tap-off";
+    /// A tolerance is no tolerance, or looser than any may be.
+    BAD_TOLERANCE = "bad-tolerance";
+    /// A tolerance is loose, and nothing says why.
+    MISSING_REASON = "missing-reason";
+    /// A name is no class of adapters.
+    UNKNOWN_ADAPTER_CLASS = "unknown-adapter-class";
+    /// A check does not fit what the port holds.
+    WRONG_CHECK = "wrong-check";
+    /// A check names a port that the graph does not have.
+    UNKNOWN_TAP = "unknown-tap";
+    /// A pass has no reference on the CPU.
+    NO_REFERENCE = "no-reference";
+    /// A relation compares nothing.
+    EMPTY_RELATION = "empty-relation";
+}

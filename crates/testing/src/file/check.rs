@@ -1,0 +1,189 @@
+//! A test file held against its graph: which ports its taps mean, and whether what they ask fits.
+
+use tyndall_document::{Diagnostic, Diagnostics, Place, Span, near};
+use tyndall_graph::descriptor::{Class, PortKind};
+use tyndall_graph::{Graph, PortRef};
+
+use super::{Golden, Property, Reference, TestFile};
+use crate::codes;
+use crate::metric::Metric;
+
+/// A port that a test looks at, with all that its taps say.
+#[derive(Debug, Clone)]
+pub struct Tapped {
+    /// The port.
+    pub port: PortRef,
+    /// `pass.port`.
+    pub name: String,
+    /// How far from its golden.
+    pub golden: Option<Golden>,
+    /// A picture that another renderer made.
+    pub reference: Option<Reference>,
+    /// What needs no golden.
+    pub properties: Vec<Property>,
+}
+
+/// Finds the ports that a test looks at, in the graph's order. `has_reference` says whether a pass (`plugin.pass`) has a
+/// reference on the CPU. A property of a tap with `*` is asked only of the ports that it fits.
+pub fn check(
+    file: &TestFile,
+    graph: &Graph,
+    has_reference: &dyn Fn(&str) -> bool,
+    out: &mut Diagnostics,
+) -> Vec<Tapped> {
+    let mut checker = Checker { file, graph, has_reference, out };
+    let ports: Vec<PortRef> = outputs(graph).collect();
+    for tap in &file.taps {
+        checker.matches_something(&tap.pattern, tap.span, &ports);
+    }
+    checker.named_ports_exist();
+    let enabled = ports.iter().filter(|port| graph.pass(port.pass).enabled);
+    enabled.filter_map(|port| checker.tapped(*port)).collect()
+}
+
+/// Every port that a pass of the graph writes, switched off or not, in file order.
+fn outputs(graph: &Graph) -> impl Iterator<Item = PortRef> + '_ {
+    graph.passes.node_weights().enumerate().flat_map(|(pass, of)| {
+        let ports = of.descriptor().ports.iter().enumerate().filter(|(_, port)| port.role.is_output());
+        ports.map(move |(port, _)| PortRef { pass: pass as u32, port: port as u32 })
+    })
+}
+
+struct Checker<'a> {
+    file: &'a TestFile,
+    graph: &'a Graph,
+    has_reference: &'a dyn Fn(&str) -> bool,
+    out: &'a mut Diagnostics,
+}
+
+impl Checker<'_> {
+    fn matches_something(&mut self, pattern: &str, span: Span, ports: &[PortRef]) {
+        let matching: Vec<_> = ports.iter().filter(|port| matches(pattern, &self.graph.port_name(**port))).collect();
+        let place = self.file.place(span);
+        if matching.is_empty() {
+            let message = format!("`{pattern}` matches no port of the graph");
+            let names: Vec<String> = ports.iter().map(|port| self.graph.port_name(*port)).collect();
+            let problem = Diagnostic::error(codes::EMPTY_PATTERN, place, message);
+            self.out.push(suggest_near(problem, pattern, &names));
+        } else if let Some(off) = matching.iter().map(|port| self.graph.pass(port.pass)).find(|pass| !pass.enabled)
+            && matching.iter().all(|port| !self.graph.pass(port.pass).enabled)
+        {
+            let message = format!("`{pattern}` looks at pass `{}`, which is switched off", off.name);
+            let problem = Diagnostic::error(codes::TAP_OFF, place, message);
+            self.out.push(problem.suggest("switch it on with `set`, or leave the tap out"));
+        }
+    }
+
+    /// Ports that properties and relations name.
+    fn named_ports_exist(&mut self) {
+        let properties = self.file.taps.iter().flat_map(|tap| &tap.properties);
+        let named = properties.flat_map(|property| property.value.ports().iter().map(|port| (port, property.span)));
+        let expected = self.file.relations.iter().flat_map(|relation| &relation.expect);
+        let named: Vec<_> = named.chain(expected.map(|expectation| (&expectation.port, expectation.span))).collect();
+        for (name, span) in named {
+            match self.graph.find(name, self.file.place(span)) {
+                Ok(port) if !self.graph.pass(port.pass).enabled => {
+                    let message = format!("`{name}` is a port of a pass that is switched off");
+                    self.out.push(Diagnostic::error(codes::TAP_OFF, self.file.place(span), message));
+                }
+                Ok(_) => {}
+                Err(problem) => self.out.push(Diagnostic { code: codes::UNKNOWN_TAP, ..problem }),
+            }
+        }
+    }
+
+    fn tapped(&mut self, port: PortRef) -> Option<Tapped> {
+        let name = self.graph.port_name(port);
+        let mut tapped = Tapped { port, name, golden: None, reference: None, properties: Vec::new() };
+        let mut found = false;
+        for tap in self.file.taps.iter().filter(|tap| matches(&tap.pattern, &tapped.name)) {
+            found = true;
+            tapped.golden = tap.golden.clone().or(tapped.golden);
+            tapped.reference = tap.reference.clone().or(tapped.reference);
+            for property in &tap.properties {
+                match self.unfit(port, &property.value) {
+                    None => tapped.properties.push(property.value.clone()),
+                    Some(_) if tap.pattern.contains('*') => {}
+                    Some((code, why)) => {
+                        self.out.push(Diagnostic::error(code, self.file.place(property.span), why));
+                    }
+                }
+            }
+        }
+        let golden = tapped.golden.as_ref().map(|golden| (golden.metric, self.file.place(golden.span)));
+        let reference = tapped
+            .reference
+            .as_ref()
+            .map(|reference| (reference.metric, Place::File(reference.file.display().to_string())));
+        for (metric, place) in golden.into_iter().chain(reference) {
+            if matches!(metric, Metric::Flip { .. })
+                && class(self.graph, port).is_some_and(|class| class != Class::Display)
+            {
+                let message = format!("FLIP says what a person sees, and `{}` is for no eye", tapped.name);
+                let problem = Diagnostic::error(codes::WRONG_CHECK, place, message);
+                self.out.push(problem.suggest("give it RelativeRmse, in a tap that stands later"));
+            }
+        }
+        found.then_some(tapped)
+    }
+
+    /// Why a property cannot be asked of a port, where it cannot.
+    fn unfit(&self, port: PortRef, property: &Property) -> Option<(tyndall_document::Code, String)> {
+        let name = self.graph.port_name(port);
+        let class = class(self.graph, port);
+        let wrong = |what: &str| Some((codes::WRONG_CHECK, format!("`{name}` {what}")));
+        match property {
+            Property::AlphaOne if !matches!(class, Some(Class::Color | Class::Display)) => {
+                wrong("is no colour and has no alpha")
+            }
+            Property::UnitLength { .. } if class != Some(Class::Vector) => wrong("holds no vectors"),
+            Property::CpuReference { .. } => {
+                let pass = &self.graph.pass(port.pass).descriptor().name;
+                let message = format!("`{pass}` has no reference on the CPU");
+                (!(self.has_reference)(pass)).then_some((codes::NO_REFERENCE, message))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// What the channels of a port mean, where its descriptor says.
+fn class(graph: &Graph, port: PortRef) -> Option<Class> {
+    match &graph.port(port).kind {
+        PortKind::Texture { class, .. } if *class != Class::Any => Some(*class),
+        PortKind::Texture { .. } => None,
+        PortKind::Buffer { .. } | PortKind::Value { .. } => Some(Class::Data),
+    }
+}
+
+fn suggest_near(problem: Diagnostic, pattern: &str, names: &[String]) -> Diagnostic {
+    match near(pattern, names.iter().map(String::as_str)) {
+        Some(name) => problem.suggest(format!("did you mean `{name}`?")),
+        None => problem.suggest(format!("its ports are {}", names.join(", "))),
+    }
+}
+
+/// Whether a pattern matches a name; `*` stands for any characters.
+pub(crate) fn matches(pattern: &str, name: &str) -> bool {
+    match pattern.split_once('*') {
+        None => pattern == name,
+        Some((head, rest)) => name.strip_prefix(head).is_some_and(|tail| {
+            tail.char_indices().map(|(at, _)| at).chain([tail.len()]).any(|at| matches(rest, &tail[at..]))
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::matches;
+
+    #[test]
+    fn patterns() {
+        for (pattern, name) in [("*", "a.b"), ("a.*", "a.b"), ("*.b", "a.b"), ("a.b", "a.b"), ("a*.b*", "air.bee")] {
+            assert!(matches(pattern, name), "{pattern} {name}");
+        }
+        for (pattern, name) in [("a.*", "b.a"), ("*.b", "a.bee"), ("a.b", "a.bb"), ("a.*c", "a.cb")] {
+            assert!(!matches(pattern, name), "{pattern} {name}");
+        }
+    }
+}

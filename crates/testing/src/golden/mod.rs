@@ -1,0 +1,130 @@
+//! Goldens: pictures that a person has looked at and found right, and what each was made from.
+//!
+//! The goldens of `NAME.test.ron` lie in `NAME.goldens` beside it: an image for each port, and `goldens.ron`, which
+//! says what each was made from. An image and its record are written one after the other, each whole or not at all;
+//! the record holds a hash of the image, so that a half-done blessing is noticed.
+
+mod record;
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use half::f16;
+use tyndall_graph::descriptor::Class;
+use tyndall_image::{Image, Meaning, Precision, srgb_from_linear, write_exr};
+
+pub use record::{Record, Records};
+
+use crate::file::{GOLDENS, MOST_TEXELS, SUFFIX};
+use crate::picture::Picture;
+
+/// The name of the file with the records.
+pub const RECORDS: &str = "goldens.ron";
+
+/// Why there is no golden to compare with.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Missing {
+    /// Nobody has blessed one.
+    #[error("there is no golden `{}`: look at the picture, and bless it", .0.display())]
+    File(PathBuf),
+    /// The file is there, and nothing says what it was made from.
+    #[error("nothing says what the golden `{}` was made from: bless it", .0.display())]
+    Record(PathBuf),
+    /// The image is not the one that the record speaks of.
+    #[error("the golden `{}` and its record do not belong together: bless it again", .0.display())]
+    Torn(PathBuf),
+    /// The image cannot be read.
+    #[error("{0}")]
+    Unreadable(String),
+}
+
+/// The name of the golden of a port: with the number of the frame where the test looks at several.
+pub fn key(port: &str, frame: u32, several: bool) -> String {
+    if several { format!("{port}.{frame:04}") } else { port.to_owned() }
+}
+
+/// The file name of a golden.
+pub fn file_name(key: &str, class: Class) -> String {
+    format!("{key}.{}", if class == Class::Display { "png" } else { "exr" })
+}
+
+/// Reads the golden of a picture that has the size and class of `like`.
+///
+/// # Errors
+/// Why there is none.
+pub fn read(folder: &Path, key: &str, records: &Records, like: &Picture) -> Result<Picture, Missing> {
+    let path = folder.join(file_name(key, like.class));
+    let Ok(bytes) = std::fs::read(&path) else { return Err(Missing::File(path)) };
+    let record = records.get(key).ok_or_else(|| Missing::Record(path.clone()))?;
+    if record.content != record::content_hash(&bytes) {
+        return Err(Missing::Torn(path));
+    }
+    let kind = tyndall_image::supported(&path).map_err(|error| Missing::Unreadable(error.to_string()))?;
+    let image = tyndall_image::decode(&path, kind, &bytes).map_err(|error| Missing::Unreadable(error.to_string()))?;
+    Ok(Picture::new(unfolded(image, like), like.class))
+}
+
+/// As a file has it, back to layers and to encoded sRGB.
+fn unfolded(mut image: Image, like: &Picture) -> Image {
+    if like.class == Class::Display {
+        let channels = image.channels as usize;
+        for (index, value) in image.data.iter_mut().enumerate() {
+            *value = if index % channels == 3 { *value } else { srgb_from_linear(*value) };
+            // Codes of 8 bits come back as the codes that they were.
+            *value = (*value * 255.0).round() / 255.0;
+        }
+    }
+    let layers = like.image.layers;
+    if layers > 1 && image.height.is_multiple_of(layers) {
+        image.height /= layers;
+        image.layers = layers;
+    }
+    image
+}
+
+/// Writes the golden of a picture without loss: in half precision where every number survives that, as floats otherwise.
+/// So a pass that is run alone gets from goldens what it gets from the passes before it.
+///
+/// # Errors
+/// Where it is larger than a golden may be, or cannot be written.
+pub fn write(folder: &Path, key: &str, picture: &Picture) -> Result<PathBuf, String> {
+    let Image { width, height, layers, .. } = picture.image;
+    if u64::from(width) * u64::from(height) * u64::from(layers) > u64::from(MOST_TEXELS) {
+        return Err(format!(
+            "{width}x{height}x{layers} texels are too many for a golden, which has {MOST_TEXELS} at most"
+        ));
+    }
+    let path = folder.join(file_name(key, picture.class));
+    let folded = Image { height: height * layers, layers: 1, ..picture.image.clone() };
+    let written = match picture.class {
+        Class::Display => tyndall_image::write(&path, &folded, Meaning::Display),
+        Class::Color => write_exr(&path, &folded, Meaning::Color, precision(&folded)),
+        _ => write_exr(&path, &folded, Meaning::Data, precision(&folded)),
+    };
+    written.map(|()| path).map_err(|error| error.to_string())
+}
+
+fn precision(image: &Image) -> Precision {
+    let survives = |value: &f32| f16::from_f32(*value).to_f32().to_bits() == value.to_bits();
+    if image.data.iter().all(survives) { Precision::Half } else { Precision::Float }
+}
+
+/// Files in a folder of goldens that no tap claims.
+pub fn orphans(folder: &Path, claimed: &BTreeSet<String>) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut found: Vec<PathBuf> = entries
+        .filter(|entry| {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            name != RECORDS && !claimed.contains(&name)
+        })
+        .map(|entry| entry.path())
+        .collect();
+    found.sort();
+    found
+}
+
+/// The test file that a folder of goldens belongs to, if that is there.
+pub fn owner(folder: &Path) -> Option<PathBuf> {
+    let stem = folder.file_name()?.to_str()?.strip_suffix(GOLDENS)?;
+    Some(folder.with_file_name(format!("{stem}{SUFFIX}"))).filter(|path| path.is_file())
+}

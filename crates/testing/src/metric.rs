@@ -1,0 +1,283 @@
+//! How far a picture may be from what is expected.
+
+use tyndall_graph::descriptor::Class;
+use tyndall_image::{Image, metrics};
+
+use crate::flip;
+use crate::picture::Picture;
+
+/// How two pictures are compared, and how far they may be apart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Metric {
+    /// Every number is bit-equal.
+    Exact,
+    /// No more than the part `failing` of the numbers differs by more than `tolerance`.
+    Absolute {
+        /// In the unit of the port.
+        tolerance: f64,
+        /// 0 to 1.
+        failing: f64,
+    },
+    /// Root of the mean squared difference over that of the expected picture: for linear light. Of a data port every
+    /// channel of every layer by itself, for they mean different things; the largest counts.
+    RelativeRmse {
+        /// At most this.
+        tolerance: f64,
+    },
+    /// What a person sees of the difference (Andersson et al. 2020, LDR-FLIP, 67 pixels per degree): of a display port.
+    Flip {
+        /// The mean over all pixels is at most this.
+        mean: f64,
+        /// 99 % of the pixels are at most at this.
+        p99: Option<f64>,
+    },
+}
+
+/// What a comparison found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judgement {
+    /// Within the tolerance.
+    pub passed: bool,
+    /// What was measured, and what is allowed.
+    pub figures: String,
+    /// What was measured, over what is allowed: 1 is the limit. Infinite where nothing is allowed.
+    pub excess: f64,
+}
+
+/// Alpha of a colour is 1 by definition, so it has a tolerance of its own: the rounding of a half float.
+const ALPHA_TOLERANCE: f64 = 5e-4;
+
+impl Metric {
+    /// The loosest that any test may have: beyond these a comparison says little.
+    pub const MOST_RMSE: f64 = 0.05;
+    /// The largest part of numbers that may fail.
+    pub const MOST_FAILING: f64 = 0.02;
+    /// The largest absolute tolerance, as a part of the largest expected number.
+    pub const MOST_OF_LARGEST: f64 = 0.05;
+    /// The largest mean of FLIP.
+    pub const MOST_FLIP_MEAN: f64 = 0.05;
+    /// The largest 99th percentile of FLIP.
+    pub const MOST_FLIP_P99: f64 = 0.5;
+
+    /// Why no test may be this loose, where it is.
+    pub fn beyond_cap(&self) -> Option<String> {
+        let over = |what: &str, value: f64, most: f64| {
+            (!(0.0..=most).contains(&value)).then(|| format!("{what} is {value}, and may be 0 to {most}"))
+        };
+        match *self {
+            Metric::Exact => None,
+            Metric::Absolute { tolerance, failing } => over("the failing part", failing, Self::MOST_FAILING)
+                .or((tolerance < 0.0).then(|| format!("a tolerance of {tolerance} is none"))),
+            Metric::RelativeRmse { tolerance } => over("the relative RMSE", tolerance, Self::MOST_RMSE),
+            Metric::Flip { mean, p99 } => over("the mean of FLIP", mean, Self::MOST_FLIP_MEAN)
+                .or(p99.and_then(|p99| over("the 99th percentile of FLIP", p99, Self::MOST_FLIP_P99))),
+        }
+    }
+
+    /// So strict that nobody need say why: rounding of 32-bit floats, a step of 8 bits here and there.
+    pub fn is_strict(&self) -> bool {
+        match *self {
+            Metric::Exact => true,
+            Metric::Absolute { tolerance, failing } => tolerance <= 1e-4 && failing == 0.0,
+            Metric::RelativeRmse { tolerance } => tolerance <= 1e-4,
+            Metric::Flip { mean, p99 } => mean <= 0.005 && p99.is_none_or(|p99| p99 <= 0.05),
+        }
+    }
+
+    /// The difference of one number that the tolerance is about, in the unit of the port: where a report draws the line
+    /// between pixels that fail and pixels that do not.
+    pub fn scale(&self, expected: &Picture) -> f64 {
+        match *self {
+            Metric::Exact => f64::from(f32::MIN_POSITIVE),
+            Metric::Absolute { tolerance, .. } => tolerance,
+            Metric::RelativeRmse { tolerance } => {
+                let numbers = expected.compared().data.into_iter().filter(|value| value.is_finite());
+                let (sum, count) = numbers.fold((0.0, 0), |(sum, count), v| (sum + f64::from(v).powi(2), count + 1));
+                tolerance * (sum / f64::from(count.max(1))).sqrt()
+            }
+            Metric::Flip { mean, .. } => mean,
+        }
+    }
+
+    /// Compares; pictures that cannot be compared do not pass.
+    pub fn judge(&self, actual: &Picture, expected: &Picture) -> Judgement {
+        self.try_judge(actual, expected).unwrap_or_else(|why| Judgement::failed(format!("cannot be compared: {why}")))
+    }
+
+    fn try_judge(&self, actual: &Picture, expected: &Picture) -> Result<Judgement, String> {
+        let said = |error: metrics::Incomparable| error.to_string();
+        let (image, wanted) = (actual.compared(), expected.compared());
+        if let Some(alpha) = alpha_mistake(actual, expected)? {
+            return Ok(Judgement::failed(alpha));
+        }
+        match *self {
+            Metric::Exact => {
+                let differing = metrics::differing_bits(&image, &wanted).map_err(said)?;
+                let figures = format!("{differing} of {} numbers differ, none may", image.data.len());
+                Ok(Judgement {
+                    passed: differing == 0,
+                    figures,
+                    excess: if differing == 0 { 0.0 } else { f64::INFINITY },
+                })
+            }
+            Metric::Absolute { tolerance, failing } => {
+                let most = Self::MOST_OF_LARGEST * largest(&wanted);
+                if tolerance > most && most > 0.0 {
+                    let why =
+                        format!("a tolerance of {tolerance} is more than 5 % of the largest number: at most {most:e}");
+                    return Ok(Judgement::failed(why));
+                }
+                let found = metrics::absolute(&image, &wanted, tolerance).map_err(said)?;
+                let part = found.failing_fraction();
+                let figures = format!(
+                    "{:.2} % of the numbers differ by more than {tolerance:e} (at most {} %), the largest by {:.3e}",
+                    100.0 * part,
+                    100.0 * failing,
+                    found.largest
+                );
+                let excess = if part <= failing {
+                    found.largest.min(tolerance) / tolerance.max(f64::MIN_POSITIVE)
+                } else {
+                    found.largest / tolerance.max(f64::MIN_POSITIVE)
+                };
+                Ok(Judgement { passed: part <= failing, figures, excess })
+            }
+            Metric::RelativeRmse { tolerance } => {
+                let mut worst = 0.0f64;
+                for (image, wanted) in planes(actual.class, &image).iter().zip(&planes(expected.class, &wanted)) {
+                    worst = worst.max(metrics::relative_rmse(image, wanted).map_err(said)?);
+                }
+                let figures = format!("relative RMSE {worst:.3e}, at most {tolerance:e}");
+                Ok(Judgement { passed: worst <= tolerance, figures, excess: worst / tolerance })
+            }
+            Metric::Flip { mean, p99 } => {
+                let found = flip::compare(actual, expected)?;
+                let mut figures = format!("FLIP mean {:.4}, at most {mean}", found.mean);
+                let mut excess = found.mean / mean;
+                if let Some(p99) = p99 {
+                    figures += &format!("; 99th percentile {:.4}, at most {p99}", found.p99);
+                    excess = excess.max(found.p99 / p99);
+                }
+                Ok(Judgement { passed: found.mean <= mean && p99.is_none_or(|p99| found.p99 <= p99), figures, excess })
+            }
+        }
+    }
+}
+
+impl Judgement {
+    /// One that nothing makes good.
+    pub(crate) fn failed(figures: String) -> Self {
+        Self { passed: false, figures, excess: f64::INFINITY }
+    }
+}
+
+fn alpha_mistake(actual: &Picture, expected: &Picture) -> Result<Option<String>, String> {
+    let (Some(alpha), Some(wanted)) = (actual.alpha(), expected.alpha()) else { return Ok(None) };
+    let found = metrics::absolute(&alpha, &wanted, ALPHA_TOLERANCE).map_err(|error| error.to_string())?;
+    Ok((found.failing > 0)
+        .then(|| format!("alpha differs in {} pixels, by up to {:.3e}", found.failing, found.largest)))
+}
+
+fn largest(image: &Image) -> f64 {
+    let finite = image.data.iter().filter(|value| value.is_finite());
+    finite.fold(0.0, |most, value| most.max(f64::from(value.abs())))
+}
+
+/// What is compared as a whole: every channel of every layer of a data port, everything of others.
+fn planes(class: Class, image: &Image) -> Vec<Image> {
+    if class != Class::Data || image.channels * image.layers == 1 {
+        return vec![image.clone()];
+    }
+    let texels = (image.width * image.height) as usize;
+    let plane = |layer: usize, channel: usize| {
+        let numbers = image.data[layer * texels * image.channels as usize..].iter();
+        let data = numbers.skip(channel).step_by(image.channels as usize).take(texels).copied().collect();
+        Image::new(image.width, image.height, 1, data)
+    };
+    (0..image.layers as usize)
+        .flat_map(|layer| (0..image.channels as usize).map(move |channel| (layer, channel)))
+        .map(|(layer, channel)| plane(layer, channel))
+        .collect()
+}
+
+impl std::fmt::Display for Metric {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match *self {
+            Metric::Exact => f.write_str("Exact"),
+            Metric::Absolute { tolerance, failing } => {
+                write!(f, "Absolute(tolerance: {tolerance:e}, failing: {failing})")
+            }
+            Metric::RelativeRmse { tolerance } => write!(f, "RelativeRmse({tolerance:e})"),
+            Metric::Flip { mean, p99: Some(p99) } => write!(f, "Flip(mean: {mean}, p99: {p99})"),
+            Metric::Flip { mean, p99: None } => write!(f, "Flip(mean: {mean})"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ramp(class: Class, change: impl Fn(usize, f32) -> f32) -> Picture {
+        let data =
+            (0..16 * 16 * 4).map(|index| if index % 4 == 3 { 1.0 } else { change(index, 0.1 + index as f32 / 2048.0) });
+        Picture::new(Image::new(16, 16, 4, data.collect()), class)
+    }
+
+    /// Every metric with the loosest tolerance but one.
+    const ALL: [Metric; 4] = [
+        Metric::Exact,
+        Metric::Absolute { tolerance: 1e-3, failing: 0.0 },
+        Metric::RelativeRmse { tolerance: 1e-3 },
+        Metric::Flip { mean: 0.005, p99: Some(0.05) },
+    ];
+
+    #[test]
+    fn a_picture_is_itself_and_half_of_it_is_not() {
+        for class in [Class::Display, Class::Color] {
+            let picture = ramp(class, |_, value| value);
+            let half = ramp(class, |_, value| value / 2.0);
+            for metric in ALL.iter().filter(|metric| class == Class::Display || !matches!(metric, Metric::Flip { .. }))
+            {
+                assert!(metric.judge(&picture, &picture).passed, "{metric}");
+                let found = metric.judge(&half, &picture);
+                assert!(!found.passed && found.excess > 1.0, "{metric}: {found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn alpha_and_nan_never_pass() {
+        let picture = ramp(Class::Display, |_, value| value);
+        let mut clear = picture.clone();
+        clear.image.data[7] = 0.5;
+        let nan = ramp(Class::Display, |index, value| if index == 400 { f32::NAN } else { value });
+        for metric in ALL {
+            assert!(!metric.judge(&clear, &picture).passed, "{metric}");
+            assert!(!metric.judge(&nan, &picture).passed, "{metric}");
+        }
+    }
+
+    #[test]
+    fn a_small_channel_of_data_counts_beside_a_large_one() {
+        let picture = |small: f32| {
+            let data = (0..64).flat_map(|_| [small, 1000.0]).collect();
+            Picture::new(Image::new(8, 8, 2, data), Class::Data)
+        };
+        let metric = Metric::RelativeRmse { tolerance: 0.01 };
+        assert!(!metric.judge(&picture(0.5), &picture(1.0)).passed);
+        assert!(metric.judge(&picture(1.0), &picture(1.0)).passed);
+    }
+
+    #[test]
+    fn tolerances_are_capped() {
+        assert!(Metric::RelativeRmse { tolerance: 0.06 }.beyond_cap().is_some());
+        assert!(Metric::Absolute { tolerance: 0.1, failing: 0.5 }.beyond_cap().is_some());
+        assert!(Metric::Flip { mean: 0.2, p99: None }.beyond_cap().is_some());
+        assert!(Metric::RelativeRmse { tolerance: f64::NAN }.beyond_cap().is_some());
+        assert!(ALL.iter().all(|metric| metric.beyond_cap().is_none()));
+        let picture = ramp(Class::Color, |_, value| value);
+        let loose = Metric::Absolute { tolerance: 0.5, failing: 0.0 };
+        assert!(loose.judge(&picture, &picture).figures.contains("5 %"));
+    }
+}

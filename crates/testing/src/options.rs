@@ -1,0 +1,64 @@
+//! How tests are run.
+
+use tyndall_graph::Order;
+
+use crate::session::Variation;
+
+/// How tests are run.
+#[derive(Debug, Clone, Default)]
+pub struct Options {
+    /// Write goldens that are missing, different or stale.
+    pub bless: bool,
+    /// Also where the golden was made on another class of adapters.
+    pub bless_any_adapter: bool,
+    /// Judge (and bless) only ports that match this pattern.
+    pub tap: Option<String>,
+    /// Run every pass alone, with its inputs from goldens.
+    pub isolate: bool,
+    /// Leave goldens and other renderers' pictures out: properties, references on the CPU and relations alone.
+    pub without_goldens: bool,
+    /// Another size than the test says, in pixels. Goldens are left out, and whatever else is stated for a size.
+    pub size: Option<(u32, u32)>,
+    /// Render again in other ways, and hold every port against the first rendering, bit by bit.
+    pub robustness: Robustness,
+    /// Keep what a report shows: pictures of ports that pass too, and the time of every pass.
+    pub for_report: bool,
+}
+
+/// In which other ways everything is rendered again.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Robustness {
+    /// In another valid order, drawn by this seed.
+    pub shuffle: Option<u64>,
+    /// With NaN in memory before it is first written.
+    pub poison: bool,
+    /// With ports that share no memory, beside those that do.
+    pub no_sharing: bool,
+    /// So many times in the same way.
+    pub repeat: u32,
+}
+
+impl Robustness {
+    /// Any other way at all.
+    pub fn any(&self) -> bool {
+        *self != Self::default()
+    }
+
+    /// The ways, each with its name.
+    pub(crate) fn variations(&self) -> Vec<(String, Variation)> {
+        let order = self.shuffle.map_or(Order::File, Order::Shuffled);
+        let base = Variation { order, poison: self.poison, share: true, reuse: false };
+        let mut ways = Vec::new();
+        let mut name = vec!["again".to_owned()];
+        name.extend(self.shuffle.map(|seed| format!("in the order of seed {seed}")));
+        name.extend(self.poison.then(|| "from poisoned memory".to_owned()));
+        let name = name.join(" ");
+        for _ in 0..self.repeat.max(1) {
+            ways.push((format!("{name}, memory shared"), base));
+        }
+        if self.no_sharing {
+            ways.push((format!("{name}, no memory shared"), Variation { share: false, ..base }));
+        }
+        if self.any() { ways } else { Vec::new() }
+    }
+}

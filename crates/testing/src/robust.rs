@@ -1,0 +1,75 @@
+//! The same graph in another order, with other memory, and again: every port must come out the same, bit by bit.
+
+use std::sync::Arc;
+
+use tyndall_gpu::PortData;
+use tyndall_graph::PortRef;
+use tyndall_render::Error;
+
+use crate::options::Options;
+use crate::outcome::Outcome;
+use crate::run::Ready;
+use crate::session::{Rendered, Session};
+
+/// Renders in every other way that is asked for.
+///
+/// A port that is looked at lives to the end of the frame, so nothing shares its memory. Each way is therefore
+/// rendered twice: with every tapped port, and with the graph's outputs alone, so that all others share.
+pub(crate) fn run(
+    session: &mut Session,
+    ready: &Ready,
+    own: &[Rendered],
+    options: &Options,
+    outcome: &mut Outcome,
+) -> Result<(), Error> {
+    let outputs = final_ports(ready, own);
+    let tapped: Vec<PortRef> = ready.tapped.iter().map(|tapped| tapped.port).collect();
+    for (name, variation) in options.robustness.variations() {
+        for ports in [&tapped, &outputs] {
+            let other = session.render(&ready.loaded, &ready.registry, ports, &ready.file.frames, variation)?;
+            for (own, other) in own.iter().zip(&other) {
+                outcome.robustness.extend(differing(ready, &name, own, other));
+            }
+        }
+    }
+    outcome.robustness.dedup();
+    Ok(())
+}
+
+/// The tapped ports that no other pass reads: what is left when every other port may share its memory.
+fn final_ports(ready: &Ready, own: &[Rendered]) -> Vec<PortRef> {
+    let plan = &ready.plan;
+    let is_read = |port: u32| (0..plan.passes.len() as u32).any(|pass| plan.sources(pass).contains(&Some(port)));
+    let rendered = own.iter().flat_map(|rendered| rendered.ports.keys());
+    let mut ports: Vec<PortRef> =
+        rendered.filter(|port| plan.planned(**port).is_some_and(|planned| !is_read(planned))).copied().collect();
+    ports.sort();
+    ports.dedup();
+    ports
+}
+
+/// The first port that differs, in the order in which passes run: what follows from it is no news.
+fn differing(ready: &Ready, name: &str, own: &Rendered, other: &Rendered) -> Option<String> {
+    let mut ports: Vec<&PortRef> = other.ports.keys().collect();
+    ports.sort_by_key(|port| ready.plan.planned(**port));
+    ports.into_iter().find_map(|port| {
+        let (a, b) = (own.ports.get(port)?, other.ports.get(port)?);
+        let unordered = ready.loaded.graph.port(*port).unordered;
+        let (a, b) = (comparable(a, unordered), comparable(b, unordered));
+        let count = a.iter().zip(&b).filter(|(a, b)| a != b).count();
+        let port = ready.loaded.graph.port_name(*port);
+        (a != b).then(|| format!("`{port}` came out different {name}: {count} of {} numbers", a.len()))
+    })
+}
+
+/// The bits of every number; an unordered list sorted by its elements.
+fn comparable(data: &Arc<PortData>, unordered: bool) -> Vec<u32> {
+    let bits = data.data.iter().map(|number| number.to_bits());
+    if !unordered {
+        return bits.collect();
+    }
+    let bits: Vec<u32> = bits.collect();
+    let mut elements: Vec<&[u32]> = bits.chunks(data.channels.max(1) as usize).collect();
+    elements.sort_unstable();
+    elements.concat()
+}

@@ -1,0 +1,238 @@
+//! One test, from its file to what it found.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+use tyndall_document::Diagnostics;
+use tyndall_graph::{Graph, Plan, PortRef, Roots};
+use tyndall_plugin::Registry;
+use tyndall_render::{Error, Loaded, load};
+
+use crate::adapter::AdapterClass;
+use crate::file::{Tapped, TestFile, check, matches, read};
+use crate::golden::{self, Records};
+use crate::judge::{Judge, attribute};
+use crate::metric::Judgement;
+use crate::options::Options;
+use crate::outcome::{Outcome, PassOutcome, Problem, RelationOutcome, State};
+use crate::picture::Picture;
+use crate::session::{Rendered, Session, Variation};
+use crate::{bless, isolate, relation, robust};
+
+/// A test whose file, graph and scene are read.
+pub(crate) struct Ready {
+    pub file: TestFile,
+    pub registry: Arc<Registry>,
+    pub loaded: Loaded,
+    pub plan: Plan,
+    pub tapped: Vec<Tapped>,
+    pub records: Records,
+}
+
+impl Session {
+    /// Runs the test in a file.
+    pub fn run(&mut self, path: &Path, options: &Options) -> Outcome {
+        let start = Instant::now();
+        let mut outcome = Outcome { path: path.to_owned(), ..Outcome::default() };
+        if let Err(error) = self.try_run(path, options, &mut outcome) {
+            outcome.problems.push(match error {
+                Error::Mistakes(mut mistakes) => {
+                    mistakes.sort();
+                    mistakes.dedup();
+                    Problem::Mistakes(mistakes)
+                }
+                Error::Gpu(error) => Problem::Machine(error.to_string()),
+            });
+        }
+        outcome.took = start.elapsed();
+        outcome
+    }
+
+    fn try_run(&mut self, path: &Path, options: &Options, outcome: &mut Outcome) -> Result<(), Error> {
+        let ready = self.ready(path, options, outcome)?;
+        outcome.about.clone_from(&ready.file.about);
+        outcome.graph.clone_from(&ready.file.request.graph);
+        outcome.passes = passes(&ready.plan);
+        if options.isolate {
+            isolate::run(self, &ready, options, outcome)?;
+        } else {
+            let rendered =
+                self.render(&ready.loaded, &ready.registry, &ready.ports(), &ready.file.frames, Variation::PLAIN)?;
+            let judge = Judge { ready: &ready, options, adapter: AdapterClass::of(self.gpu()) };
+            outcome.ports = rendered.iter().flat_map(|frame| judge.frame(frame)).collect();
+            if options.size.is_none() {
+                outcome.relations = self.relations(&ready, &rendered, options)?;
+            }
+            attribute(&ready.plan, outcome);
+            robust::run(self, &ready, &rendered, options, outcome)?;
+            if options.bless {
+                bless::run(&ready, &rendered, AdapterClass::of(self.gpu()), options, outcome);
+            }
+        }
+        if options.size.is_none() && !options.without_goldens {
+            let claimed = claimed(&ready);
+            let orphans = golden::orphans(&ready.file.goldens(), &claimed);
+            outcome.problems.extend(orphans.into_iter().map(Problem::Orphan));
+        }
+        if options.for_report {
+            let times = self.times(&ready.loaded, &ready.registry, ready.plan.clone())?;
+            outcome.passes.iter_mut().zip(times).for_each(|(pass, time)| pass.microseconds = time);
+        } else {
+            for port in outcome.ports.iter_mut().filter(|port| port.state == State::Passed) {
+                (port.actual, port.expected) = (None, None);
+            }
+        }
+        Ok(())
+    }
+
+    fn ready(&mut self, path: &Path, options: &Options, outcome: &mut Outcome) -> Result<Ready, Error> {
+        let mut out = Diagnostics::default();
+        let Some(mut file) = read(path, &mut out) else { return Err(out.into()) };
+        if options.size.is_some() {
+            file.request.size = options.size;
+        }
+        let registry = self.registry(&file.request.graph)?;
+        let Some(loaded) = load(&file.request, &registry, &mut out).filter(|_| !out.has_errors()) else {
+            return Err(out.into());
+        };
+        let has_reference = |pass: &str| registry.pass(pass).is_some_and(|pass| pass.reference.is_some());
+        let tapped = check(&file, &loaded.graph, &has_reference, &mut out);
+        if out.has_errors() {
+            return Err(out.into());
+        }
+        outcome.warnings = out;
+        let graph = &loaded.graph;
+        let named = file.ports_named();
+        let roots = tapped.iter().map(|tapped| tapped.port).chain(named.filter_map(|name| find(graph, name))).collect();
+        let plan = Self::plan(&loaded.graph, Roots::Ports(roots), Variation::PLAIN)?;
+        let records = Records::read(&file.goldens())?;
+        let mut tapped = tapped;
+        if let Some(pattern) = &options.tap {
+            tapped.retain(|tapped| matches(pattern, &tapped.name));
+        }
+        tapped.sort_by_key(|tapped| plan.planned(tapped.port));
+        Ok(Ready { file, registry, loaded, plan, tapped, records })
+    }
+
+    fn relations(&mut self, ready: &Ready, own: &[Rendered], options: &Options) -> Result<Vec<RelationOutcome>, Error> {
+        let mut outcomes = Vec::new();
+        let graph = &ready.loaded.graph;
+        let wanted = |name: &str| options.tap.as_ref().is_none_or(|pattern| matches(pattern, name));
+        for relation in &ready.file.relations {
+            let expect: Vec<_> = relation.expect.iter().filter(|expectation| wanted(&expectation.port)).collect();
+            let ports: Vec<PortRef> = expect.iter().filter_map(|expectation| find(graph, &expectation.port)).collect();
+            let mut runs = Vec::new();
+            for settings in &relation.runs {
+                let mut request = ready.file.request.clone();
+                request.set.extend(settings.iter().cloned());
+                let mut out = Diagnostics::default();
+                let loaded = load(&request, &ready.registry, &mut out).filter(|_| !out.has_errors());
+                let Some(loaded) = loaded else { return Err(out.into()) };
+                runs.push(self.render(&loaded, &ready.registry, &ports, &ready.file.frames, Variation::PLAIN)?);
+            }
+            for (expectation, port) in expect.iter().zip(&ports) {
+                for (frame, own) in own.iter().enumerate() {
+                    let others: Option<Vec<Picture>> =
+                        runs.iter().map(|run| run.get(frame)?.picture(&ready.plan, *port)).collect();
+                    let judgement = match (own.picture(&ready.plan, *port), others) {
+                        (Some(own), Some(others)) => relation::judge(expectation.change, &own, &others),
+                        _ => Judgement::failed("it was not rendered in every run".to_owned()),
+                    };
+                    outcomes.push(RelationOutcome {
+                        about: relation.about.clone(),
+                        port: expectation.port.clone(),
+                        pass: graph.pass(port.pass).name.clone(),
+                        judgement,
+                        state: State::Passed,
+                    });
+                }
+            }
+        }
+        Ok(outcomes)
+    }
+}
+
+impl Ready {
+    /// Every port that is needed to judge: those tapped, those that properties and relations name, and the inputs of
+    /// passes with a reference on the CPU.
+    fn ports(&self) -> Vec<PortRef> {
+        let graph = &self.loaded.graph;
+        let mut ports: BTreeSet<PortRef> = self.tapped.iter().map(|tapped| tapped.port).collect();
+        ports.extend(self.file.ports_named().filter_map(|name| find(graph, name)));
+        for tapped in self.tapped.iter().filter(|tapped| tapped.asks_cpu()) {
+            ports.extend(self.inputs(tapped.port.pass).into_iter().map(|(_, port)| port));
+        }
+        ports.into_iter().collect()
+    }
+
+    /// What feeds a pass of the graph: index of the input, and the port.
+    pub fn inputs(&self, pass: u32) -> Vec<(usize, PortRef)> {
+        let Some(position) = self.plan.position(pass) else { return Vec::new() };
+        let sources = self.plan.sources(position).iter().enumerate();
+        sources.filter_map(|(index, source)| Some((index, self.plan.ports[(*source)? as usize].port))).collect()
+    }
+
+    /// The name of a golden.
+    pub fn key(&self, port: &str, frame: u32) -> String {
+        golden::key(port, frame, self.file.frames.len() > 1)
+    }
+}
+
+impl Tapped {
+    fn asks_cpu(&self) -> bool {
+        self.properties.iter().any(|property| matches!(property, crate::file::Property::CpuReference { .. }))
+    }
+}
+
+/// The port of this name, which was checked before.
+pub(crate) fn find(graph: &Graph, name: &str) -> Option<PortRef> {
+    graph.find(name, tyndall_document::Place::Argument(String::new())).ok()
+}
+
+/// File names of the goldens that the taps of a test claim, whichever were chosen.
+pub(crate) fn claimed(ready: &Ready) -> BTreeSet<String> {
+    let mut ignored = Diagnostics::default();
+    let all = check(&ready.file, &ready.loaded.graph, &|_| true, &mut ignored);
+    let golden = all.iter().filter(|tapped| tapped.golden.is_some());
+    let names = golden.flat_map(|tapped| {
+        let class = ready.plan.planned(tapped.port).map(|port| ready.plan.ports[port as usize].class);
+        let name = move |frame: &u32| Some(golden::file_name(&ready.key(&tapped.name, *frame), class?));
+        ready.file.frames.iter().filter_map(name)
+    });
+    names.collect()
+}
+
+/// The passes of a plan, in order.
+fn passes(plan: &Plan) -> Vec<PassOutcome> {
+    let reads = |pass: u32| {
+        let sources = plan.sources(pass).iter().flatten();
+        let from: BTreeSet<u32> = sources.filter_map(|source| plan.ports[*source as usize].pass).collect();
+        from.into_iter().map(|pass| plan.pass_name(pass).to_owned()).collect()
+    };
+    let pass = |pass: u32| PassOutcome {
+        name: plan.pass_name(pass).to_owned(),
+        kind: plan.descriptor(pass).name.clone(),
+        reads: reads(pass),
+        bytes: plan.outputs_of(pass).map(|port| plan.resource(port).bytes()).sum(),
+        microseconds: None,
+    };
+    (0..plan.passes.len() as u32).map(pass).collect()
+}
+
+/// Positions upstream of each position.
+pub(crate) fn upstream(plan: &Plan) -> Vec<BTreeSet<usize>> {
+    let mut upstream: Vec<BTreeSet<usize>> = Vec::with_capacity(plan.passes.len());
+    for pass in 0..plan.passes.len() as u32 {
+        let mut found = BTreeSet::new();
+        for source in plan.sources(pass).iter().flatten() {
+            if let Some(producer) = plan.ports[*source as usize].pass {
+                found.insert(producer as usize);
+                found.extend(&upstream[producer as usize]);
+            }
+        }
+        upstream.push(found);
+    }
+    upstream
+}

@@ -1,0 +1,348 @@
+//! What the tests of one run share: the device, the registry, compiled pipelines, and results that have not changed.
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use tyndall_gpu::{Executor, FRAMES_PER_SECOND, FrameOptions, Gpu, PipelineCache, PortData, Timing};
+use tyndall_graph::descriptor::{Format, Role};
+use tyndall_graph::{Graph, Order, Plan, PlanOptions, PortRef, Resource, Roots};
+use tyndall_plugin::{Plugin, Registry, SearchPath};
+use tyndall_render::{Error, Loaded, Running};
+use tyndall_scene::Encoded;
+
+use crate::fingerprint::{Fingerprint, fingerprints};
+use crate::picture::Picture;
+
+/// Makes the plugins of a registry.
+pub type Plugins = Vec<fn() -> Plugin>;
+
+/// What the tests of one run share.
+///
+/// A result that was computed for one test is given to every later one whose fingerprint is the same, so that of two
+/// tests of one graph the second renders only what differs.
+pub struct Session {
+    plugins: Plugins,
+    search: Vec<SearchPath>,
+    gpu: Arc<Gpu>,
+    registries: HashMap<Vec<PathBuf>, Arc<Registry>>,
+    cache: PipelineCache,
+    results: HashMap<ResultKey, Arc<PortData>>,
+    held: usize,
+    /// What sharing has saved.
+    pub saved: Saved,
+}
+
+type ResultKey = (Fingerprint, u32);
+
+/// Results that are held at most, numbers: 1 GiB. Beyond it all are let go, and sharing begins anew.
+const MOST_HELD: usize = 1 << 28;
+
+/// How much sharing results between tests has saved.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Saved {
+    /// Runs of passes that would have been needed.
+    pub passes: usize,
+    /// Of these, runs that were not.
+    pub spared: usize,
+    /// Time spent on rendering, reading results back included.
+    pub rendering: Duration,
+}
+
+/// How a graph is rendered, apart from what it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Variation {
+    /// Which of the valid orders.
+    pub order: Order,
+    /// Ports share memory.
+    pub share: bool,
+    /// Memory holds NaN before it is first written.
+    pub poison: bool,
+    /// Results of earlier tests may be used.
+    pub reuse: bool,
+}
+
+impl Variation {
+    /// In file order, every port with memory of its own, with results of earlier tests.
+    pub const PLAIN: Self = Self { order: Order::File, share: false, poison: false, reuse: true };
+}
+
+/// Ports of one frame.
+pub struct Rendered {
+    /// The frame.
+    pub frame: u32,
+    /// What was asked for.
+    pub ports: BTreeMap<PortRef, Arc<PortData>>,
+    /// What each was made from; `None` where it depends on a frame before.
+    pub made_from: BTreeMap<PortRef, Option<Fingerprint>>,
+}
+
+impl Rendered {
+    /// A port as a picture.
+    pub fn picture(&self, plan: &Plan, port: PortRef) -> Option<Picture> {
+        let class = plan.ports[plan.planned(port)? as usize].class;
+        Some(Picture::of(self.ports.get(&port)?, class))
+    }
+}
+
+impl Session {
+    /// Opens the adapter whose name holds `adapter`, or the best one. `search` are folders of plugins that win over
+    /// those of crates.
+    ///
+    /// # Errors
+    /// Where no adapter answers.
+    pub fn new(plugins: Plugins, search: Vec<SearchPath>, adapter: Option<&str>) -> Result<Self, Error> {
+        let gpu = Gpu::open(adapter)?;
+        Ok(Self {
+            plugins,
+            search,
+            gpu,
+            registries: HashMap::new(),
+            cache: PipelineCache::default(),
+            results: HashMap::new(),
+            held: 0,
+            saved: Saved::default(),
+        })
+    }
+
+    /// The device.
+    pub fn gpu(&self) -> &Arc<Gpu> {
+        &self.gpu
+    }
+
+    /// The registry for a graph: beside the session's search paths, `plugins` beside the graph.
+    ///
+    /// # Errors
+    /// Every mistake of every manifest and shader.
+    pub fn registry(&mut self, graph: &Path) -> Result<Arc<Registry>, Error> {
+        let beside = graph.parent().unwrap_or(Path::new("")).join("plugins");
+        let mut paths = self.search.clone();
+        if beside.is_dir() {
+            // Behind what somebody named, before what is usual: as `tyndall render` looks for them.
+            let at = paths.iter().position(|search| !search.required).unwrap_or(paths.len());
+            paths.insert(at, SearchPath { path: beside, required: false });
+        }
+        let key: Vec<_> = paths.iter().map(|search| search.path.clone()).collect();
+        if let Some(registry) = self.registries.get(&key) {
+            return Ok(registry.clone());
+        }
+        let crates = self.plugins.iter().map(|plugin| plugin()).collect();
+        let registry = Arc::new(tyndall_render::registry(crates, &paths)?);
+        self.registries.insert(key, registry.clone());
+        Ok(registry)
+    }
+
+    /// Plans a graph so that these ports can be read.
+    ///
+    /// # Errors
+    /// Mistakes that show only at the frame's size.
+    pub fn plan(graph: &Arc<Graph>, roots: Roots, variation: Variation) -> Result<Plan, Error> {
+        let options =
+            PlanOptions { roots, share: variation.share, order: variation.order, ..PlanOptions::new(graph.size) };
+        Ok(tyndall_graph::plan(graph, &options)?)
+    }
+
+    /// Renders the ports of a graph in these frames, rising.
+    ///
+    /// # Errors
+    /// Mistakes of the graph at its size; what the machine cannot do.
+    pub fn render(
+        &mut self,
+        loaded: &Loaded,
+        registry: &Registry,
+        ports: &[PortRef],
+        frames: &[u32],
+        variation: Variation,
+    ) -> Result<Vec<Rendered>, Error> {
+        let start = Instant::now();
+        let plan = Self::plan(&loaded.graph, Roots::Ports(ports.to_vec()), variation)?;
+        let remembers = (0..plan.passes.len() as u32)
+            .any(|pass| plan.descriptor(pass).ports.iter().any(|port| matches!(port.role, Role::History(_))));
+        let rendered = if remembers || !variation.reuse {
+            self.render_whole(loaded, registry, plan, ports, frames, (variation, remembers))
+        } else {
+            frames.iter().map(|frame| self.render_missing(loaded, registry, &plan, ports, *frame)).collect()
+        };
+        self.saved.rendering += start.elapsed();
+        rendered
+    }
+
+    /// Renders everything; with history every frame from 0 on.
+    fn render_whole(
+        &mut self,
+        loaded: &Loaded,
+        registry: &Registry,
+        plan: Plan,
+        ports: &[PortRef],
+        frames: &[u32],
+        (variation, remembers): (Variation, bool),
+    ) -> Result<Vec<Rendered>, Error> {
+        let mut running = Running::new(&self.gpu, plan, loaded.scene.as_ref(), registry, &mut self.cache)?;
+        let all: Vec<u32> = match (remembers, frames.last()) {
+            (true, Some(last)) => (0..=*last).collect(),
+            _ => frames.to_vec(),
+        };
+        let mut rendered = Vec::with_capacity(frames.len());
+        for frame in all {
+            if variation.poison {
+                running.executor.poison(f32::NAN)?;
+            }
+            running.frame(FrameOptions { frame, everything: true, ..FrameOptions::default() })?;
+            self.saved.passes += running.executor.plan().passes.len();
+            if frames.contains(&frame) {
+                let prints = self.prints(loaded, registry, running.executor.plan(), frame);
+                rendered.push(read_all(&running.executor, ports, frame, &prints)?);
+            }
+        }
+        Ok(rendered)
+    }
+
+    fn prints(&self, loaded: &Loaded, registry: &Registry, plan: &Plan, frame: u32) -> Vec<Option<Fingerprint>> {
+        let encoded = encode(loaded, plan, frame);
+        fingerprints(plan, registry, encoded.as_ref(), frame)
+    }
+
+    /// Renders what no test has rendered before, from what one has.
+    fn render_missing(
+        &mut self,
+        loaded: &Loaded,
+        registry: &Registry,
+        plan: &Plan,
+        ports: &[PortRef],
+        frame: u32,
+    ) -> Result<Rendered, Error> {
+        let prints = self.prints(loaded, registry, plan, frame);
+        let key = |plan: &Plan, prints: &[Option<Fingerprint>], port: u32| -> Option<ResultKey> {
+            let planned = &plan.ports[port as usize];
+            Some((prints[planned.pass? as usize]?, planned.port.port))
+        };
+        let mut rendered = Rendered { frame, ports: BTreeMap::new(), made_from: BTreeMap::new() };
+        let mut missing = Vec::new();
+        for port in ports {
+            let Some(planned) = plan.planned(*port) else { continue };
+            let key = key(plan, &prints, planned);
+            rendered.made_from.insert(*port, key.map(|key| key.0));
+            match key.and_then(|key| self.results.get(&key)) {
+                Some(data) => drop(rendered.ports.insert(*port, data.clone())),
+                None => missing.push(*port),
+            }
+        }
+        self.saved.passes += plan.passes.len();
+        if missing.is_empty() {
+            self.saved.spared += plan.passes.len();
+            return Ok(rendered);
+        }
+        let rest = Self::plan(&loaded.graph, Roots::Ports(missing.clone()), Variation::PLAIN)?;
+        let rest_prints = self.prints(loaded, registry, &rest, frame);
+        let mut running = Running::new(&self.gpu, rest, loaded.scene.as_ref(), registry, &mut self.cache)?;
+        let executor = &mut running.executor;
+        for port in 0..executor.plan().ports.len() as u32 {
+            let known = key(executor.plan(), &rest_prints, port).and_then(|key| self.results.get(&key));
+            if let Some(data) = known.filter(|_| can_be_given(executor.plan().resource(port))) {
+                let texels = data.texels(executor.plan().resource(port));
+                executor.give(port, &texels)?;
+            }
+        }
+        let report = running.frame(FrameOptions { frame, ..FrameOptions::default() })?;
+        self.saved.spared += plan.passes.len() - report.passes_run;
+        let executor = &running.executor;
+        for port in missing {
+            let Some(planned) = executor.plan().planned(port) else { continue };
+            let data = Arc::new(executor.read(planned)?);
+            if let Some(key) = key(executor.plan(), &rest_prints, planned) {
+                self.keep(key, &data);
+            }
+            rendered.ports.insert(port, data);
+        }
+        Ok(rendered)
+    }
+
+    fn keep(&mut self, key: ResultKey, data: &Arc<PortData>) {
+        if self.held + data.data.len() > MOST_HELD {
+            self.results.clear();
+            self.held = 0;
+        }
+        self.held += data.data.len();
+        self.results.insert(key, data.clone());
+    }
+
+    /// GPU time of every pass of a plan by itself, in microseconds; `None` where it cannot be measured.
+    ///
+    /// # Errors
+    /// What the machine cannot do.
+    pub fn times(&mut self, loaded: &Loaded, registry: &Registry, plan: Plan) -> Result<Vec<Option<f64>>, Error> {
+        let passes = plan.passes.len();
+        let mut running = Running::new(&self.gpu, plan, loaded.scene.as_ref(), registry, &mut self.cache)?;
+        running.frame(FrameOptions { everything: true, ..FrameOptions::default() })?;
+        (0..passes)
+            .map(|pass| {
+                let options = FrameOptions { everything: true, timing: Timing::Pass(pass), ..FrameOptions::default() };
+                Ok(running.frame(options)?.gpu_us)
+            })
+            .collect()
+    }
+
+    /// Runs one pass of a frame with these inputs given, and reads its ports.
+    ///
+    /// # Errors
+    /// What the machine cannot do; an input of another size.
+    pub fn render_alone(
+        &mut self,
+        loaded: &Loaded,
+        registry: &Registry,
+        ports: &[PortRef],
+        inputs: &BTreeMap<PortRef, Arc<PortData>>,
+        frame: u32,
+    ) -> Result<Rendered, Error> {
+        let plan = Self::plan(&loaded.graph, Roots::Ports(ports.to_vec()), Variation::PLAIN)?;
+        let mut running = Running::new(&self.gpu, plan, loaded.scene.as_ref(), registry, &mut self.cache)?;
+        for (port, data) in inputs {
+            let executor = &mut running.executor;
+            if let Some(planned) = executor.plan().planned(*port) {
+                let texels = data.texels(executor.plan().resource(planned));
+                executor.give(planned, &texels)?;
+            }
+        }
+        running.frame(FrameOptions { frame, ..FrameOptions::default() })?;
+        let prints = vec![None; running.executor.plan().passes.len()];
+        read_all(&running.executor, ports, frame, &prints)
+    }
+}
+
+fn read_all(
+    executor: &Executor,
+    ports: &[PortRef],
+    frame: u32,
+    prints: &[Option<Fingerprint>],
+) -> Result<Rendered, Error> {
+    let mut rendered = Rendered { frame, ports: BTreeMap::new(), made_from: BTreeMap::new() };
+    for port in ports {
+        let Some(planned) = executor.plan().planned(*port) else { continue };
+        rendered.ports.insert(*port, Arc::new(executor.read(planned)?));
+        let print = executor.plan().ports[planned as usize].pass.and_then(|pass| prints[pass as usize]);
+        rendered.made_from.insert(*port, print);
+    }
+    Ok(rendered)
+}
+
+/// The time of a frame in seconds, and width over height.
+pub(crate) fn moment(plan: &Plan, frame: u32) -> (f64, f64) {
+    (f64::from(frame) / FRAMES_PER_SECOND, f64::from(plan.size.0) / f64::from(plan.size.1))
+}
+
+/// The scene's bytes in a frame.
+fn encode(loaded: &Loaded, plan: &Plan, frame: u32) -> Option<Encoded> {
+    let (time, aspect) = moment(plan, frame);
+    loaded.scene.as_ref().map(|scene| scene.encode(time, aspect))
+}
+
+/// Nothing can be copied into a rasteriser's depth buffer, and whole numbers beyond 24 bits would lose some.
+fn can_be_given(resource: &Resource) -> bool {
+    match resource {
+        Resource::Texture { format, .. } => {
+            !matches!(format, Format::Depth32Float | Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint)
+        }
+        Resource::Buffer { .. } => true,
+    }
+}

@@ -1,0 +1,164 @@
+//! Goldens that are missing, stale, torn, orphaned, of another adapter; and blessing.
+
+use std::fs;
+
+use tyndall_testing::{Options, Outcome};
+
+use crate::chain::{Chain, LINE};
+
+const HALF: &str = "    let value = 0.5 * texel(id.xy);";
+
+fn bless() -> Options {
+    Options { bless: true, ..Options::default() }
+}
+
+fn says(outcome: &Outcome, what: &str) {
+    assert!(!outcome.passed());
+    assert!(outcome.text().contains(what), "{what}: {}", outcome.text());
+}
+
+#[test]
+fn a_missing_golden_fails() {
+    let chain = Chain::new();
+    fs::remove_file(chain.path("chain.goldens/three.result.exr")).unwrap();
+    let outcome = chain.plain();
+    assert_eq!(outcome.guilty(), ["three"]);
+    says(&outcome, "there is no golden");
+    assert!(chain.isolated().text().contains("`three.result` has no golden"));
+}
+
+#[test]
+fn a_golden_that_nobody_claims_fails_until_it_is_dropped() {
+    let chain = Chain::new();
+    fs::copy(chain.path("chain.goldens/one.result.exr"), chain.path("chain.goldens/gone.result.exr")).unwrap();
+    says(&chain.plain(), "no tap claims the golden");
+    let blessed = chain.run(&bless());
+    assert!(blessed.blessed.iter().any(|line| line.contains("deleted")), "{:?}", blessed.blessed);
+    assert!(chain.plain().passed());
+}
+
+#[test]
+fn a_golden_whose_record_is_another_s_fails() {
+    let chain = Chain::new();
+    fs::copy(chain.path("chain.goldens/two.result.exr"), chain.path("chain.goldens/three.result.exr")).unwrap();
+    says(&chain.plain(), "do not belong together");
+    fs::remove_file(chain.path("chain.goldens/goldens.ron")).unwrap();
+    says(&chain.plain(), "nothing says what the golden");
+}
+
+/// Stale and right passes; stale and different says what has changed; different and not stale says nothing of that.
+#[test]
+fn stale_is_told_apart_from_different() {
+    let chain = Chain::new();
+    chain.set_line("three", &format!("{LINE} // as before"));
+    let outcome = chain.plain();
+    assert!(outcome.passed());
+    let stale: Vec<_> = outcome.ports.iter().filter(|port| !port.stale.is_empty()).collect();
+    assert_eq!(stale.iter().map(|port| port.pass.as_str()).collect::<Vec<_>>(), ["three", "four", "five"]);
+    assert!(stale.iter().all(|port| port.stale == ["shaders"]));
+
+    let renewed = chain.run(&bless());
+    assert_eq!(renewed.blessed.len(), 3, "{:?}", renewed.blessed);
+    assert!(renewed.blessed[0].contains("shaders had changed"), "{:?}", renewed.blessed);
+    assert!(chain.plain().ports.iter().all(|port| port.stale.is_empty()));
+
+    // The golden itself is another: nothing that it was made from has changed.
+    chain.set_line("three", HALF);
+    chain.run(&bless());
+    let halved = fs::read(chain.path("chain.goldens/three.result.exr")).unwrap();
+    let records = fs::read_to_string(chain.path("chain.goldens/goldens.ron")).unwrap();
+    let content = |text: &str| {
+        let line = text.lines().find(|line| line.contains("\"three.result\"")).unwrap();
+        line.split("content: \"").nth(1).unwrap()[..16].to_owned()
+    };
+    chain.set_line("three", LINE);
+    chain.run(&bless());
+    let now = fs::read_to_string(chain.path("chain.goldens/goldens.ron")).unwrap();
+    fs::write(chain.path("chain.goldens/three.result.exr"), halved).unwrap();
+    fs::write(chain.path("chain.goldens/goldens.ron"), now.replace(&content(&now), &content(&records))).unwrap();
+    let outcome = chain.plain();
+    assert_eq!(outcome.guilty(), ["three"]);
+    assert!(!outcome.text().contains("stale"), "{}", outcome.text());
+}
+
+#[test]
+fn a_changed_parameter_and_a_changed_size_are_named() {
+    let chain = Chain::new();
+    let graph = fs::read_to_string(chain.path("chain.graph.ron")).unwrap();
+    // `aside` now reads what comes after the second link.
+    chain.put(
+        "chain.graph.ron",
+        &graph.replace(
+            "\"aside\": (use: \"chain.five\", inputs: { \"input\": \"one.result\" })",
+            "\"aside\": (use: \"chain.five\", inputs: { \"input\": \"two.result\" })",
+        ),
+    );
+    let outcome = chain.plain();
+    assert_eq!(outcome.guilty(), ["aside"]);
+    assert!(outcome.text().contains("stale: graph"), "{}", outcome.text());
+}
+
+#[test]
+fn blessing_prints_figures_and_can_be_of_one_image() {
+    let chain = Chain::new();
+    chain.set_line("three", HALF);
+    let one = chain.run(&Options { tap: Some("three.result".to_owned()), ..bless() });
+    assert_eq!(one.blessed.len(), 1);
+    assert!(one.blessed[0].contains("relative RMSE"), "{:?}", one.blessed);
+    // What follows still has its old goldens, and now it is the first that diverges.
+    assert_eq!(chain.plain().guilty(), ["four"]);
+    assert!(chain.run(&bless()).passed());
+    assert!(chain.plain().passed());
+}
+
+#[test]
+fn nothing_is_blessed_of_which_something_else_does_not_hold() {
+    let chain = Chain::new();
+    chain.test("\"*\": (golden: RelativeRmse(1e-5), properties: [Finite])", "");
+    chain.set_line("three", "    let value = texel(id.xy) + bitcast<f32>(id.x | 0x7fc00000u);");
+    let outcome = chain.run(&bless());
+    says(&outcome, "something else does not hold");
+    assert!(outcome.blessed.is_empty(), "{:?}", outcome.blessed);
+}
+
+#[test]
+fn goldens_of_another_class_of_adapters_are_blessed_only_when_told() {
+    let chain = Chain::new();
+    let path = chain.path("chain.goldens/goldens.ron");
+    let records = fs::read_to_string(&path).unwrap();
+    let here = records.split("adapter: \"").nth(1).unwrap().split('"').next().unwrap().to_owned();
+    let other = if here == "discrete" { "software" } else { "discrete" };
+    fs::write(&path, records.replace(&format!("adapter: {here:?}"), &format!("adapter: {other:?}"))).unwrap();
+    chain.set_line("five", HALF);
+    says(&chain.run(&bless()), "--any-adapter");
+    let told = chain.run(&Options { bless_any_adapter: true, ..bless() });
+    assert!(told.passed() && told.blessed.len() == 2, "{} {:?}", told.text(), told.blessed);
+}
+
+/// A relation says how a port changes; broken, the pass that it looks at is named.
+#[test]
+fn relations_between_runs() {
+    let chain = Chain::new();
+    let graph = fs::read_to_string(chain.path("chain.graph.ron")).unwrap();
+    let scaled = graph.replace(
+        "\"aside\": (use",
+        "\"twice\": (use: \"core.scale\", inputs: { \"input\": \"one.result\" }), \"aside\": (use",
+    );
+    chain.put("chain.graph.ron", &scaled.replace("outputs: {", "outputs: { \"twice\": \"twice.scaled\","));
+    let relation = |factor: f64| {
+        format!(
+            "relations: [(about: \"twice the factor\", runs: [{{ \"twice.factor\": (2.0, 2.0, 2.0) }}], expect: {{ \"twice.scaled\": Scaled(factor: {factor:?}, by: RelativeRmse(1e-6)), \"five.result\": Same(by: Exact) }})]"
+        )
+    };
+    let run = |factor| {
+        chain.test("\"start.*\": (properties: [Finite])", &relation(factor));
+        let search = vec![tyndall_plugin::SearchPath { path: chain.path("plugins"), required: true }];
+        let mut session = tyndall_testing::Session::new(vec![tyndall_core::plugin], search, None).unwrap();
+        let options = Options { without_goldens: true, ..Options::default() };
+        session.run(&chain.path("chain.test.ron"), &options)
+    };
+    let right = run(2.0);
+    assert!(right.passed() && right.relations.len() == 2, "{}", right.text());
+    let wrong = run(3.0);
+    assert!(!wrong.passed() && wrong.text().contains("twice the factor"), "{}", wrong.text());
+}

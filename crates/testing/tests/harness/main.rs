@@ -1,0 +1,8 @@
+//! The harness tests itself: what is broken on purpose must be noticed, and laid at the right door.
+
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod attribution;
+mod chain;
+mod goldens;
+mod robustness;

@@ -1,0 +1,55 @@
+//! What the passes of this plugin compute, in double precision: what image tests hold them against.
+
+use std::collections::BTreeMap;
+
+use tyndall_plugin::ReferenceInput;
+use tyndall_shaders::lights::incident;
+use tyndall_shaders::medium::transmittance;
+use tyndall_shaders::phase::phase;
+use tyndall_shaders::ray::{Ray, ray_of_pixel};
+use tyndall_shaders::scene::{Light, Scene};
+
+/// Optical depth along the ray, of the channel of least extinction, at which the march ends: as in `airlight.wgsl`.
+const MARCH_DEPTH: f64 = 16.0;
+
+/// The same march with the same steps, from the definition of single scattering: what a light sends to the middle of
+/// each step, through the medium to there and from there. No distance is floored, so lights keep off the rays.
+pub(crate) fn airlight(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String> {
+    let scene = input.scene()?;
+    let (size, steps) = (input.size("radiance")?, input.number("steps")?);
+    let depth = input.inputs.get("depth");
+    let least = scene.medium.extinction.min_element().max(1e-30);
+    let mut radiance = Vec::with_capacity((4 * size[0] * size[1]) as usize);
+    for y in 0..size[1] {
+        for x in 0..size[0] {
+            let ray = ray_of_pixel(&scene.camera, [x, y], size);
+            let far = depth.map_or(f64::INFINITY, |depth| f64::from(depth.data[(y * depth.width + x) as usize]));
+            let sum = march(scene, &ray, far.min(MARCH_DEPTH / least), steps);
+            radiance.extend(sum.map(|channel| channel as f32));
+            radiance.push(1.0);
+        }
+    }
+    Ok(BTreeMap::from([("radiance", radiance)]))
+}
+
+fn march(scene: &Scene, ray: &Ray, way: f64, steps: f64) -> [f64; 3] {
+    let dx = way / steps;
+    let mut sum = [0.0; 3];
+    for step in 0..steps as u32 {
+        let x = (f64::from(step) + 0.5) * dx;
+        for light in &scene.lights {
+            let scattered = scatter(scene, light, ray, x);
+            (0..3).for_each(|channel| sum[channel] += scattered[channel] * dx);
+        }
+    }
+    sum
+}
+
+/// Light that is scattered toward the eye at a point of the ray, and reaches it, W/(sr m³).
+fn scatter(scene: &Scene, light: &Light, ray: &Ray, x: f64) -> [f64; 3] {
+    let arriving = incident(light, ray.at(x));
+    // sin² of half the angle between the way of the light and the way to the eye.
+    let w = (ray.direction - arriving.to_light).length_squared() / 4.0;
+    let reaches = transmittance(&scene.medium, arriving.way) * transmittance(&scene.medium, x);
+    (scene.medium.scattering() * arriving.irradiance * phase(&scene.medium.phase, w) * reaches).to_array()
+}

@@ -1,0 +1,30 @@
+// Hong's J_0 to J_3 of one lobe, one to a channel: see shaders/surface_table.wgsl.
+#import "j_texel.wgsl"
+
+var table: texture_storage_2d<rgba32float, write>;
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let size = vec2<u32>(params.size);
+    let place = place_of_texel(id.xy, size);
+    let n = exponent_of_table();
+    var sum = vec4<f32>(0.0);
+    var i = 0u;
+    loop {
+        let ring = ring_of_lobe(place, n, 1.0, i);
+        var along = vec4<f32>(0.0);
+        var k = 0u;
+        loop {
+            let node = tau_node(ring.nodes, k);
+            along += node.weight * legendre_polynomials(1.0 - 2.0 * node.w);
+            k++;
+            if k >= TAU_NODES { break; }
+        }
+        sum += ring.weight * along;
+        i++;
+        if i >= gamma_nodes(n) { break; }
+    }
+    if all(id.xy < size) {
+        textureStore(table, id.xy, sum * exp(-place.depth));
+    }
+}

@@ -1,0 +1,76 @@
+//! Hong's J and J_k by nested adaptive quadrature: twin of `surface_table.wgsl`, whose glossary this follows.
+
+use crate::airlight_table::{ENDLESS, legendre_polynomials};
+use crate::phase::phase;
+use crate::quadrature::integrate;
+use crate::scene::Phase;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Relative errors that are asked of the adaptive rule, of the outer integral and of those in it.
+const TOLERANCE: f64 = 1e-8;
+const TOLERANCE_WITHIN: f64 = 1e-10;
+
+/// J(T, θ_s), sr⁻¹·sr, of the lobe cosⁿ; θ_s in radians from 0 to π (Hong 2006, eq. 4.13 and 4.14).
+pub fn j(kind: &Phase, n: f64, depth: f64, angle: f64) -> f64 {
+    integral(&|w| phase(kind, w), n, depth, angle)
+}
+
+/// J_0 to J_3 of the same arguments (Hong 2006, eq. 4.19).
+pub fn j_k(n: f64, depth: f64, angle: f64) -> [f64; 4] {
+    // never below 0 with 1 added, so no integral cancels; J_0 is what that adds
+    let all = integral(&|_| 1.0, n, depth, angle);
+    let rest = |k: usize| integral(&|w| legendre_polynomials(1.0 - 2.0 * w)[k] + 1.0, n, depth, angle) - all;
+    [all, rest(1), rest(2), rest(3)]
+}
+
+fn integral(f: &dyn Fn(f64) -> f64, n: f64, depth: f64, angle: f64) -> f64 {
+    let ring = |gamma: f64| lobe_over_circle(gamma, angle, n) * along(f, depth, gamma);
+    // the lobe's edge cuts a ring between the second and the third
+    let edges = [
+        (angle - FRAC_PI_2).max(0.0),
+        (FRAC_PI_2 - angle).clamp(0.0, PI),
+        (1.5 * PI - angle).min(PI),
+        (angle + FRAC_PI_2).min(PI),
+    ];
+    let mut edges: Vec<f64> = edges.into_iter().filter(|edge| *edge >= edges[0] && *edge <= edges[3]).collect();
+    edges.sort_by(f64::total_cmp);
+    edges.windows(2).filter(|pair| pair[1] > pair[0]).map(|pair| integrate(ring, pair[0], pair[1], TOLERANCE)).sum()
+}
+
+/// K(γ).
+fn lobe_over_circle(gamma: f64, angle: f64, n: f64) -> f64 {
+    let (a, b) = (gamma.cos() * angle.cos(), gamma.sin() * angle.sin());
+    let half = if a >= b { PI } else { (-a / b).clamp(-1.0, 1.0).acos() };
+    let lobe = |phi: f64| (a + b * phi.cos()).max(0.0).powf(n);
+    if a + b > 0.0 { 2.0 * integrate(lobe, 0.0, half, TOLERANCE_WITHIN) } else { 0.0 }
+}
+
+/// A(γ).
+fn along(f: &dyn Fn(f64) -> f64, depth: f64, gamma: f64) -> f64 {
+    let start = (gamma / 2.0).tan();
+    let integrand = |x: f64| {
+        let w = 1.0 / (1.0 + (-2.0 * x).exp());
+        f(w) * (-depth * gamma.sin() * (x.exp() - start)).exp() / x.cosh()
+    };
+    (-depth).exp() * integrate(integrand, start.ln().max(-ENDLESS), ENDLESS, TOLERANCE_WITHIN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Light from all sides, T = 0 and isotropic: A(γ) = (π − γ)/(4π), so J has a closed form where the light is overhead.
+    #[test]
+    fn closed_form_without_extinction() {
+        // ∫ (π − γ)/(4π)·2π·cos γ dγ over 0..π/2
+        let expected = 0.5 * (FRAC_PI_2 + 1.0);
+        assert!((j(&Phase::Isotropic, 1.0, 0.0, 0.0) - expected).abs() < 1e-9);
+    }
+
+    /// Scattered light does not end where the table of the thesis does.
+    #[test]
+    fn what_turns_away_is_lit_by_fog() {
+        let at = |degrees: f64| j(&Phase::Isotropic, 1.0, 1.0, degrees.to_radians());
+        assert!(at(90.0) > 0.2 * at(0.0) && at(180.0) > 0.05 * at(0.0));
+    }
+}
