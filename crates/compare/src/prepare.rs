@@ -12,18 +12,18 @@ use tyndall_scene::{Override, Scene};
 use crate::codes::WRONG_PICTURE;
 use crate::file::{CompareFile, Entry, Setting};
 
-/// A graph that renders the geometry for the truth.
+/// A graph that renders the geometry for the truth: the outputs are what `Geometry` takes.
 const GEOMETRY: &str = r#"(
     version: 1,
     passes: { "surfaces": (use: "core.gbuffer") },
-    outputs: { "depth": "surfaces.depth" },
+    outputs: { "depth": "surfaces.depth", "normal": "surfaces.normal", "material": "surfaces.material" },
 )"#;
 
 /// A scene, and every method ready to draw it.
 pub struct PreparedScene<'f> {
     pub(crate) entry: &'f Entry,
     pub(crate) scene: Scene,
-    /// Of the scene's depth.
+    /// Of what each pixel's ray meets.
     pub(crate) geometry: Plan,
     pub(crate) methods: Vec<PreparedMethod<'f>>,
 }
