@@ -51,20 +51,33 @@ fn lobe_width(n: f32, cos_cutoff: f32) -> f32 {
     return max(min(inverseSqrt(max(n, 1.0)), sqrt(0.5 - 0.5 * cos_cutoff)), 1e-3);
 }
 
-// The coordinate of an angle is scale log2(1 + sin(theta/2) factor).
+// The coordinate of an angle is toward log2(1 + u factor) + away u^4, u = sin(theta/2): half the cells are in equal ratios
+// around the light, half away from it, where a directional light may be seen through a backward peak.
 struct AngleAxis {
     factor: f32,
-    scale: f32,
+    toward: f32,
+    away: f32,
 }
 
 fn angle_axis(width: f32, cells: f32) -> AngleAxis {
     let factor = 1.0 / width;
-    return AngleAxis(factor, cells / log2(1.0 + factor));
+    return AngleAxis(factor, 0.5 * cells / log2(1.0 + factor), 0.5 * cells);
 }
 
-// sin(theta/2) of a coordinate.
+fn angle_coordinate(axis: AngleAxis, sine_of_half: f32) -> f32 {
+    let square = sine_of_half * sine_of_half;
+    return axis.toward * log2(1.0 + sine_of_half * axis.factor) + axis.away * square * square;
+}
+
+// sin(theta/2) of a coordinate, by bisection.
 fn sine_of_half_at(axis: AngleAxis, coordinate: f32) -> f32 {
-    return min((exp2(coordinate / axis.scale) - 1.0) / axis.factor, 1.0);
+    var low = 0.0;
+    var width = 1.0;
+    for (var i = 0u; i < 24u; i++) {
+        width *= 0.5;
+        low += select(0.0, width, angle_coordinate(axis, low + width) <= coordinate);
+    }
+    return low;
 }
 
 // A lobe and its layer of the table.
@@ -108,7 +121,7 @@ fn cell_value(corners: vec4<f32>, across: f32, down: f32) -> f32 {
 fn convolution(lookup: Lookup, to_light: vec3<f32>, rows: Rows, table: texture_2d_array<f32>) -> vec3<f32> {
     // half the distance of unit vectors is the sine of half their angle
     let sine_of_half = min(0.5 * length(lookup.axis - to_light), 1.0);
-    let at = lookup.angles.scale * log2(1.0 + sine_of_half * lookup.angles.factor);
+    let at = angle_coordinate(lookup.angles, sine_of_half);
     let cell = min(u32(at), textureDimensions(table).x - 1u);
     let within = at - f32(cell);
     let red = textureLoad(table, vec2<u32>(cell, rows.cell.x), lookup.layer, 0);
