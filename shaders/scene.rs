@@ -10,6 +10,10 @@ pub struct Scene {
     pub camera: Camera,
     /// What fills space; extinction 0 is none.
     pub medium: Medium,
+    /// How its density falls with the height.
+    pub height_fog: HeightFog,
+    /// What the medium sends toward the eye that comes from no light of the scene, where it is endless, W/(sr m²).
+    pub ambient: DVec3,
     /// What a ray that meets nothing sees behind the medium, W/(sr m²).
     pub background: DVec3,
     /// In the order of the scene.
