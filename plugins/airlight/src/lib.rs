@@ -10,5 +10,7 @@ pub fn plugin() -> Plugin {
         "airlight": "plugin.ron", "h.wgsl", "h_k.wgsl", "height_fog.wgsl",
         "homogeneous.wgsl", "legendre.wgsl", "lookup.wgsl", "table.wgsl"
     );
-    Plugin::new("airlight", files).reference("airlight.homogeneous", reference::homogeneous)
+    Plugin::new("airlight", files)
+        .reference("airlight.homogeneous", reference::homogeneous)
+        .reference("airlight.height_fog", reference::height_fog)
 }
