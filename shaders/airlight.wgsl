@@ -252,7 +252,7 @@ fn airlight(cursor: Cursor, light: Light, medium: Medium, phase: Phase, ray: Ray
     let whole = interval_of_way(beside, way);
     let spot = spot_beside_ray(light, ray.direction, beside.from_light, whole.start, whole.start + whole.width, depth_of_v);
     var chunk = Chunk(Interval(whole.start, min(whole.width, DEPTH_MAX / depth_of_v)), false);
-    if phase_table_count > 0u {
+    if phase_table_count > 0u && light.kind == POINT {
         chunk = chunk_of_table(depth_of_v, whole, cursor.start);
     }
     if light.kind == SPOT {

@@ -19,6 +19,8 @@ const PIECE_DENSITY: f32 = 3.0;
 // Optical depth of a piece at most, and after how much of it nothing follows, beyond that of the light at the eye.
 const PIECE_DEPTH: f32 = 4.0;
 const PIECES_DEPTH: f32 = 12.0;
+// Nor behind this optical depth, wherever the light stands: e^-100 is 0 in f32.
+const LAST_DEPTH: f32 = 100.0;
 // Where the density is e^-14 of that at the eye, 1e-6, nothing follows.
 const PIECES_DENSITY: f32 = 14.0;
 
@@ -106,7 +108,7 @@ fn height_airlight(cursor: HeightCursor, light: Light, medium: Medium, fog: Heig
     let l = length(light.position - ray.origin);
     let light_density = exp(min(-light_height, DENSITY_MAX));
     let depth_of_light = l * mean_density(climb.density, light_density, light_height - climb.height);
-    let last = way_of(climb, climb.density, depth_of_light + PIECES_DEPTH / least);
+    let last = way_of(climb, climb.density, min(depth_of_light, LAST_DEPTH / least) + PIECES_DEPTH / least);
     let thin = select(WAY_MAX, PIECES_DENSITY / climb.rate, climb.rate > 0.0);
     let end = min(min(way, WAY_MAX), min(last, thin));
     let start_density = density_along(climb, cursor.x);
@@ -136,7 +138,8 @@ fn height_airlight(cursor: HeightCursor, light: Light, medium: Medium, fog: Heig
     let is_sun = light.kind == DIRECTIONAL;
     let sun = light.intensity * directional_phase(light, lobe, ray) * sunlit(light, medium, fog, ray, way, attenuated_sun);
 
-    let more_of_ray = !is_sun && stop < end;
+    // a piece too short for f32 would have no end
+    let more_of_ray = !is_sun && stop < end && stop > cursor.x;
     let more = chunk.more || more_of_ray;
     let more_lobes = cursor.lobe + 1u < phase.lobe_count;
     let next_lobe = select(select(0u, cursor.lobe + 1u, more_lobes), cursor.lobe, more);

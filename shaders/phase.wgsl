@@ -51,10 +51,10 @@ fn measured_phase(xi: f32) -> f32 {
     return mix(place.before.x, place.after.x, place.along);
 }
 
-// The measured function, 1/sr, at w: v = sqrt(w/(1 - w)).
-fn measured_phase_at(w: f32) -> f32 {
+// The measured function, 1/sr, at w, of which 1 - w is `rest`: v = sqrt(w/(1 - w)).
+fn measured_phase_at(w: f32, rest: f32) -> f32 {
     let forward = sqrt(sqrt(max(w, 0.0)));
-    let backward = sqrt(sqrt(max(1.0 - w, 0.0)));
+    let backward = sqrt(sqrt(max(rest, 0.0)));
     return measured_phase(forward / (forward + backward));
 }
 
@@ -90,7 +90,12 @@ fn v_of_rest(rest: f32) -> f32 {
 
 // A lobe at w, 1/sr.
 fn lobe_phase(lobe: Lobe, w: f32) -> f32 {
-    let root = inverseSqrt(lobe.rho * lobe.rho * (1.0 - w) + w);
+    return lobe_phase_of(lobe, w, 1.0 - w);
+}
+
+// The same where 1 - w is known apart, as `rest`: in f32 it is lost near w = 1, where backward lobes have their peak.
+fn lobe_phase_of(lobe: Lobe, w: f32, rest: f32) -> f32 {
+    let root = inverseSqrt(lobe.rho * lobe.rho * rest + w);
     let mu = 1.0 - 2.0 * w;
     return lobe.scale * root * root * root * select(1.0, root, lobe.squared != 0u) * (1.0 + lobe.mu_squared * mu * mu);
 }
@@ -108,7 +113,7 @@ fn lobe_of(phase: Phase, index: u32) -> Lobe {
 fn lobe_or_table(lobe: Lobe, w: f32) -> f32 {
     var value: f32;
     if phase_table_count > 0u {
-        value = measured_phase_at(w);
+        value = measured_phase_at(w, 1.0 - w);
     } else {
         value = lobe_phase(lobe, w);
     }
@@ -117,11 +122,16 @@ fn lobe_or_table(lobe: Lobe, w: f32) -> f32 {
 
 // The phase function at w, 1/sr.
 fn phase_at(phase: Phase, w: f32) -> f32 {
+    return phase_of(phase, w, 1.0 - w);
+}
+
+// The same where 1 - w is known apart, as `rest`.
+fn phase_of(phase: Phase, w: f32, rest: f32) -> f32 {
     var value: f32;
     if phase_table_count > 0u {
-        value = measured_phase_at(w);
+        value = measured_phase_at(w, rest);
     } else {
-        value = lobe_phase(phase.lobes[0], w) + lobe_phase(phase.lobes[1], w);
+        value = lobe_phase_of(phase.lobes[0], w, rest) + lobe_phase_of(phase.lobes[1], w, rest);
     }
     return value;
 }

@@ -70,14 +70,16 @@ impl PhaseTable {
             row if row == last => PI,
             _ => degrees.to_radians(),
         };
+        // any unit is good, also one in which the integral would overflow
+        let largest = rows.iter().map(|row| row.1).fold(0.0, f64::max);
         let mut table = PhaseTable {
             angles: rows.iter().enumerate().map(angle).collect(),
-            values: rows.iter().map(|row| row.1).collect(),
+            values: rows.iter().map(|row| row.1 / largest).collect(),
             rest: Vec::new(),
         };
         let integral = table.mean(|_| 1.0);
         table.values.iter_mut().for_each(|value| *value /= integral);
-        if !table.values.iter().all(|value| (*value as f32).is_finite()) || integral <= 0.0 {
+        if !table.values.iter().all(|value| (*value as f32).is_finite()) || integral.is_nan() || integral <= 0.0 {
             return Err(TableFault::Integral);
         }
         table.rest = table.rests();

@@ -304,8 +304,46 @@ fn odd_media_give_sound_pictures() {
         "scene.medium.phase=Schlick(0.9999)",
         "scene.medium.phase=CornetteShanks(-0.9999)",
     ] {
-        draw(&desk, &text, &[set]).assert_sound(set);
+        draw(&desk, &text, &[set, "scattered=true"]).assert_sound(set);
     }
+}
+
+fn mean(image: &Image) -> f64 {
+    image.data.iter().map(|value| f64::from(*value)).sum::<f64>() / image.data.len() as f64
+}
+
+/// Lobes narrower than any surface tells apart scatter as much to it, however narrow they are.
+#[test]
+fn narrow_lobes_light_surfaces_as_much() {
+    let desk = Desk::new();
+    let text = scene(LAMP, FLOOR);
+    let lit = |g: f64| {
+        let set = format!("scene.medium.phase=HenyeyGreenstein({g})");
+        mean(&draw(&desk, &text, &[&set, "scattered=true", "direct=false"]).surface)
+    };
+    for (narrow, narrowest) in [(0.9999, 0.999_999_9), (-0.9999, -0.999_999_9)] {
+        let (narrow, narrowest) = (lit(narrow), lit(narrowest));
+        assert!(narrow > 0.0 && (narrowest / narrow - 1.0).abs() < 0.01, "{narrow} {narrowest}");
+    }
+}
+
+/// A lamp so far away that nothing of it arrives leaves the others as they are.
+#[test]
+fn a_far_lamp_in_height_fog_hides_no_other() {
+    let desk = Desk::new();
+    let graph = shipped("height-fog");
+    let airlight = |lights: &str, name: &str| {
+        let medium = MEDIUM.replace("extinction:", "scale_height: 2.0, extinction:");
+        desk.put("fog.scene.ron", &format!("({CAMERA}, {medium}, lights: [{lights}], objects: [{FLOOR}])"));
+        let output = format!("airlight={name}");
+        let graph = graph.to_str().unwrap();
+        desk.ends(0, &["render", graph, "--scene", "fog.scene.ron", "--size", SIZE, "--output", &output]);
+        read(&desk.path(name)).unwrap()
+    };
+    let far = "Point(position: (3000.0, 2.5, 0.0), intensity: (20.0, 18.0, 15.0))";
+    let (one, both) = (airlight(LAMP, "one.npy"), airlight(&format!("{far}, {LAMP}"), "both.npy"));
+    assert!(mean(&one) > 1e-4);
+    assert_near(&both, &one, 1e-5);
 }
 
 #[test]

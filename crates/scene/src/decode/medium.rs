@@ -28,7 +28,7 @@ pub(super) fn medium(decoder: &mut Decoder, node: &Node) -> Option<MediumDraft> 
     let mut colour = |name: &str, default: DVec3, range: Range| {
         given(fields.get(name), default, |n| vector(decoder, n, name, range))
     };
-    let extinction = colour("extinction", DVec3::ZERO, Range::NotNegative);
+    let extinction = colour("extinction", DVec3::ZERO, Range::NotAbove(1e30));
     let albedo = colour("albedo", DVec3::ONE, Range::Unit);
     let ambient = colour("ambient", DVec3::ZERO, Range::NotNegative);
     let emission = colour("emission", DVec3::ZERO, Range::NotNegative);
