@@ -19,10 +19,8 @@
 
 const PI2: f32 = 6.28318530717959;
 
-// ln a of the first node of gamma, and of one node to the next.
+// Of gamma: a texel of `glow` each.
 const NODES: u32 = 256u;
-const FIRST_NODE: f32 = -12.5;
-const NODE_STEP: f32 = 0.075;
 
 // ln(v - a), from where nothing is left out to where nothing comes.
 const FIRST_STEP: f32 = -14.0;
