@@ -8,11 +8,13 @@ use crate::medium::opacity;
 use crate::phase::phase;
 use crate::quadrature::integrate;
 use crate::ray::Ray;
-use crate::scene::{Light, Medium};
+use crate::scene::{Light, Medium, Phase};
 use glam::DVec3;
 
 /// Relative error that is asked of the adaptive rule.
 const TOLERANCE: f64 = 1e-11;
+/// The same where the phase function is a table, which is not smooth at its rows.
+const TABLE_TOLERANCE: f64 = 1e-7;
 
 /// Light of one light scattered once toward the eye between `near` and `far` metres along the ray, W/(sr m²) per channel.
 /// `far` may be infinite. The light's distance from the ray is floored at its radius, and at 1e-6 of its distance.
@@ -87,12 +89,13 @@ impl Beside {
                 let path = self.t + self.h * u.exp();
                 phase(&medium.phase, w) * falloff(u) * (-extinction * path).exp() / u.cosh()
             };
+            let tolerance = if matches!(medium.phase, Phase::Measured(_)) { TABLE_TOLERANCE } else { TOLERANCE };
             let part = |part: &[f64; 2]| {
                 let (start, end) = (self.u(near).max(part[0]), self.u(far).min(part[1]));
                 // where the exponent has grown by 60 nothing is left
                 let last = (start.exp() + 60.0 / (extinction * self.h)).ln();
                 let end = end.min(last);
-                if end > start { integrate(light, start, end, TOLERANCE) } else { 0.0 }
+                if end > start { integrate(light, start, end, tolerance) } else { 0.0 }
             };
             if extinction == 0.0 { 0.0 } else { parts.iter().map(part).sum::<f64>() * extinction / self.h }
         };

@@ -8,9 +8,11 @@ pub mod airlight;
 pub mod airlight_table;
 pub mod colour;
 pub mod cone;
+pub mod height_fog;
 pub mod lights;
 pub mod medium;
 pub mod phase;
+pub mod phase_table;
 pub mod quadrature;
 pub mod ray;
 pub mod reflection;
@@ -23,6 +25,7 @@ pub const MODULES: &[(&str, &str)] = &[
     ("airlight_table", include_str!("airlight_table.wgsl")),
     ("colour", include_str!("colour.wgsl")),
     ("cone", include_str!("cone.wgsl")),
+    ("height_fog", include_str!("height_fog.wgsl")),
     ("lights", include_str!("lights.wgsl")),
     ("medium", include_str!("medium.wgsl")),
     ("phase", include_str!("phase.wgsl")),

@@ -16,11 +16,12 @@ pub struct Incident {
 }
 
 /// What a light sends to a point: `I/d²` of a point or spot light, d floored at the light's radius.
+/// At the light itself it comes from above.
 pub fn incident(light: &Light, position: DVec3) -> Incident {
     let at = |light_position: DVec3, intensity: DVec3, radius: f64| {
         let away = light_position - position;
-        let d = away.length().max(radius);
-        Incident { to_light: away / d, irradiance: intensity / (d * d), way: d }
+        let d = away.length().max(radius).max(1e-12);
+        Incident { to_light: away.normalize_or(DVec3::Y), irradiance: intensity / (d * d), way: d }
     };
     match *light {
         Light::Directional { direction, irradiance } => Incident { to_light: -direction, irradiance, way: 0.0 },
@@ -44,6 +45,14 @@ mod tests {
         assert_eq!(incident.to_light, DVec3::Y);
         assert_eq!(incident.irradiance, DVec3::splat(2.0));
         assert_eq!(incident.way, 4.0);
+    }
+
+    #[test]
+    fn a_radius_floors_the_distance_and_not_the_direction() {
+        let light = Light::Point { position: DVec3::X * 0.5, intensity: DVec3::ONE, radius: 2.0 };
+        let near = incident(&light, DVec3::ZERO);
+        assert_eq!((near.to_light, near.irradiance, near.way), (DVec3::X, DVec3::splat(0.25), 2.0));
+        assert!(incident(&light, DVec3::X * 0.5).to_light.is_normalized());
     }
 
     #[test]

@@ -1,6 +1,7 @@
-// A homogeneous medium along a ray.
+// A medium along a ray: homogeneous, or with a density that falls exponentially with the height y.
 //
-//   sigma_t   extinction, 1/m
+//   sigma_t   extinction, 1/m; in height fog where the density is 1
+//   density   e^(-(y - base height) * falloff), 1 in a homogeneous medium
 //   x         length of the way, m; infinite where the ray meets nothing
 //   T         transmittance, e^(-sigma_t x)
 
@@ -19,6 +20,35 @@ fn opacity(medium: Medium, way: f32) -> vec3<f32> {
     let depth = medium.extinction * min(way, ENDLESS);
     let series = depth * (1.0 - depth * (0.5 - depth * (1.0 / 6.0 - depth * (1.0 / 24.0))));
     return select(1.0 - exp(-depth), series, depth < vec3<f32>(0.06));
+}
+
+// The largest exponent of a density: what is denser counts as opaque.
+const DENSITY_MAX: f32 = 80.0;
+
+// At a height, m.
+fn density_at(fog: HeightFog, height: f32) -> f32 {
+    return exp(min((fog.base_height - height) * fog.falloff, DENSITY_MAX));
+}
+
+// The length of a way of density 1 that is as thick as `way` metres of a ray: the integral of the density along it, in
+// closed form. The ray starts at `height` and climbs by `climb` in every metre. All that takes a way (transmittance,
+// opacity) takes this one as well; in a homogeneous medium it is the way itself.
+fn effective_way(fog: HeightFog, height: f32, climb: f32, way: f32) -> f32 {
+    let x = min(way, ENDLESS);
+    let rate = fog.falloff * climb;
+    let z = rate * x;
+    let density = density_at(fog, height);
+    let end = exp(min((fog.base_height - height) * fog.falloff - z, DENSITY_MAX));
+    // (1 - e^-z)/z by its series where z is small: the first term left out is 1e-8 of the sum
+    let series = density * x * (1.0 - z * (0.5 - z * (1.0 / 6.0 - z * (1.0 / 24.0 - z * (1.0 / 120.0)))));
+    let whole = (density - end) / select(rate, 1.0, rate == 0.0);
+    return select(whole, series, abs(z) < 0.1);
+}
+
+// Mean density along a straight way, from the densities at its ends; z is the logarithm of their ratio.
+fn mean_density(start: f32, end: f32, z: f32) -> f32 {
+    let series = start * (1.0 - z * (0.5 - z * (1.0 / 6.0 - z * (1.0 / 24.0 - z * (1.0 / 120.0)))));
+    return select((start - end) / select(z, 1.0, z == 0.0), series, abs(z) < 0.1);
 }
 
 // More than any extinction, 1/m.

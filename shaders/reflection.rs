@@ -14,6 +14,7 @@ use crate::ray::Ray;
 use crate::scene::{Light, Medium, Phase};
 use glam::DVec3;
 use std::f64::consts::PI;
+use std::rc::Rc;
 
 /// A point of a surface and how it reflects.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,20 +59,25 @@ pub fn scattered(light: &Light, medium: &Medium, surface: &Surface) -> DVec3 {
         Light::Spot { .. } => scattered_from_all_around(light, medium, surface),
         Light::Point { intensity, .. } => {
             let incident = incident(light, surface.position);
-            let fields = medium.extinction.to_array().map(|sigma| Field::of_point(&medium.phase, sigma * incident.way));
-            intensity * medium.scattering() / incident.way * surface.terms(incident.to_light, &fields)
+            let field = |sigma: f64| Rc::new(Field::of_point(&medium.phase, sigma * incident.way));
+            // channels of one extinction see one field
+            let [r, g, b] = medium.extinction.to_array();
+            let red = field(r);
+            let green = if g == r { red.clone() } else { field(g) };
+            let blue = if b == g { green.clone() } else { field(b) };
+            intensity * medium.scattering() / incident.way * surface.terms(incident.to_light, &[red, green, blue])
         }
         Light::Directional { direction, irradiance } => {
-            let fields = [0, 1, 2].map(|_| Field::of_sun(&medium.phase));
+            let field = Rc::new(Field::of_sun(&medium.phase));
             let lit = DVec3::from_array(medium.extinction.to_array().map(|sigma| f64::from(sigma > 0.0)));
-            lit * medium.albedo * irradiance * surface.terms(-direction, &fields)
+            lit * medium.albedo * irradiance * surface.terms(-direction, &[field.clone(), field.clone(), field])
         }
     }
 }
 
 impl Surface {
     /// ρ/π·J¹ + k_s·Jⁿ of the three channels.
-    fn terms(&self, to_light: DVec3, fields: &[Field; 3]) -> DVec3 {
+    fn terms(&self, to_light: DVec3, fields: &[Rc<Field>; 3]) -> DVec3 {
         let lobe = |factor: DVec3, n: f64, axis: DVec3| {
             let theta = axis.angle_between(to_light);
             let channel = |i: usize| if factor[i] == 0.0 { 0.0 } else { factor[i] * fields[i].over_lobe(n, theta) };

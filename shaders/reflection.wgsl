@@ -36,6 +36,11 @@ const PI: f32 = 3.14159265358979;
 const FIRST_DEPTH: f32 = 0.02;
 const LAST_DEPTH: f32 = 40.0;
 
+// What the medium scatters to a point stands at nodes of ln tan(gamma/2), gamma the angle to the light: the first, and from
+// one to the next.
+const FIRST_NODE: f32 = -12.5;
+const NODE_STEP: f32 = 0.075;
+
 // Of T, among `cells` cells: 0..cells.
 fn depth_coordinate(depth: vec3<f32>, cells: f32) -> vec3<f32> {
     return log2(1.0 + min(depth, vec3<f32>(LAST_DEPTH)) / FIRST_DEPTH) * (cells / log2(1.0 + LAST_DEPTH / FIRST_DEPTH));

@@ -1,5 +1,6 @@
 //! The part of a scene that light scattering needs, in double precision: twin of `scene.wgsl`.
 
+use crate::phase::PhaseTable;
 use glam::DVec3;
 
 /// What passes see of a scene at one time, triangles and materials apart.
@@ -9,6 +10,10 @@ pub struct Scene {
     pub camera: Camera,
     /// What fills space; extinction 0 is none.
     pub medium: Medium,
+    /// How its density falls with the height.
+    pub height_fog: HeightFog,
+    /// What the medium sends toward the eye that comes from no light of the scene, where it is endless, W/(sr m²).
+    pub ambient: DVec3,
     /// What a ray that meets nothing sees behind the medium, W/(sr m²).
     pub background: DVec3,
     /// In the order of the scene.
@@ -60,9 +65,19 @@ pub enum Phase {
         /// Their g, which is not the mean cosine.
         g: f64,
     },
+    /// Water droplets of fog and clouds: Jendersie and d'Eon 2023.
+    Droplets {
+        /// Diameter, µm, within [`DROPLET_DIAMETERS`].
+        diameter: f64,
+    },
+    /// A table. Tables live as long as the process, one of each content, so that a phase function is a plain value.
+    Measured(&'static PhaseTable),
 }
 
-/// A homogeneous medium that fills space.
+/// The diameters of droplets, µm, for which Jendersie and d'Eon give the fit that [`Phase::Droplets`] is.
+pub const DROPLET_DIAMETERS: (f64, f64) = (5.0, 50.0);
+
+/// A medium that fills space: homogeneous, unless a [`HeightFog`] goes with it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Medium {
     /// Extinction coefficient σ_t of each channel, 1/m.
@@ -78,6 +93,20 @@ impl Medium {
     pub fn scattering(&self) -> DVec3 {
         self.albedo * self.extinction
     }
+}
+
+/// How the density of a medium falls with the height y: `e^(−(y − base_height)·falloff)`. Twin of `HeightFog`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeightFog {
+    /// m, where the medium has its own extinction.
+    pub base_height: f64,
+    /// 1/scale height, 1/m; 0: homogeneous.
+    pub falloff: f64,
+}
+
+impl HeightFog {
+    /// The same density everywhere.
+    pub const NONE: HeightFog = HeightFog { base_height: 0.0, falloff: 0.0 };
 }
 
 /// A light.

@@ -9,8 +9,11 @@
 //     var<uniform> background: Background;    var<storage, read> materials: Materials;
 //     var<storage, read> lights: Lights;      var<storage, read> textures: Textures;
 //     var<storage, read> texels: Texels;      var<storage, read> cosine_lobes: CosineLobes;
+//     var<uniform> ambient: Ambient;
+//     var<uniform> height_fog: HeightFog;     var<storage, read> phase_table: PhaseTable; (declared in phase.wgsl)
 //
-// A list is a count, padding to 16 bytes, and at least one element, zeroed where the list is empty.
+// A list is a count, padding to 16 bytes, and at least one element, zeroed where the list is empty. The count of a list is
+// also known to the pipeline where a shader declares `override NAME_count: u32;`.
 
 // The ray of a point of the image: normalize(forward + x * right + y * up), x and y from -1 to 1, x to the right, y up.
 struct Camera {
@@ -24,13 +27,28 @@ struct Camera {
     pad2: f32,
 }
 
-// A homogeneous medium that fills space; extinction 0 is none. How it scatters is Phase, scene data of its own: a table
-// over directions and optical depths reads that alone, and is kept while the density changes.
+// A medium that fills space; extinction 0 is none. It is homogeneous unless HeightFog says otherwise: a pass that reads the
+// medium and not that is refused a scene with height fog. How it scatters is Phase, scene data of its own: a table over
+// directions and optical depths reads that alone, and is kept while the density changes.
 struct Medium {
     extinction: vec3<f32>,      // sigma_t, 1/m
     pad0: f32,
     scattering: vec3<f32>,      // sigma_s = albedo * sigma_t, 1/m
     pad1: f32,
+}
+
+// How the density of the medium falls with the height y: times e^(-(y - base_height) * falloff).
+struct HeightFog {
+    base_height: f32,           // m, where the medium has its own extinction
+    falloff: f32,               // 1/m, 1/scale height; 0: homogeneous
+    pad0: f32,
+    pad1: f32,
+}
+
+// What the medium sends toward the eye that comes from no light of the scene, as thick as it can be: of a way with the
+// transmittance T the eye sees radiance * (1 - T).
+struct Ambient {
+    radiance: vec3<f32>,        // W/(sr m^2): ambient + (1 - albedo) * emission
 }
 
 // One lobe of a phase function, see phase.wgsl:  scale * q^(-3/2 or -2) * (1 + mu_squared * mu^2).
@@ -49,6 +67,20 @@ struct Phase {
     pad1: u32,
     pad2: u32,
     lobes: array<Lobe, 2>,
+}
+
+// A measured phase function: see phase.wgsl, and PhaseTable of phase.rs, which makes it. No elements: there is none.
+struct PhaseTable {
+    count: u32,
+    total: f32,                 // integral of the function over the scattering angle in a plane, 0..pi, 1/sr
+    pad0: u32,
+    pad1: u32,
+    // each at a share s = index/(count - 1), 0..1:
+    //   x   the function where xi = s, 1/sr
+    //   y   its integral over scattering angles from there to pi, 1/sr
+    //   z   xi where that integral is total * s^3
+    //   w   0
+    items: array<vec4<f32>>,
 }
 
 // What a ray that meets nothing sees behind the medium.

@@ -16,10 +16,6 @@
 // The largest shininess that zonal coefficients are used for.
 const ZONAL_MOST: f32 = 30.0;
 
-// As in zonal.wgsl.
-const FIRST_NODE: f32 = -12.5;
-const NODE_STEP: f32 = 0.075;
-
 var<storage, read> cosine_lobes: CosineLobes;
 var glow: texture_2d<f32>;
 var coefficients: texture_2d<f32>;

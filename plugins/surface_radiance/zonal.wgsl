@@ -19,15 +19,18 @@
 
 const PI2: f32 = 6.28318530717959;
 
-// ln a of the first node of gamma, and of one node to the next.
+// Of gamma: a texel of `glow` each.
 const NODES: u32 = 256u;
-const FIRST_NODE: f32 = -12.5;
-const NODE_STEP: f32 = 0.075;
 
 // ln(v - a), from where nothing is left out to where nothing comes.
 const FIRST_STEP: f32 = -14.0;
 const STEPS: u32 = 113u;
 const STEP: f32 = 0.25;
+
+// Widths of a phase function's lobes that are told apart: far narrower than any lobe of a surface, and wide enough for the
+// nodes. What is narrower (g above 0.9999, below -0.993) counts as that wide, and scatters as much.
+const NARROWEST: f32 = 5e-5;
+const NARROWEST_BACKWARD: f32 = 300.0;
 
 var<uniform> phase: Phase;
 var glow: texture_storage_2d<r32float, write>;
@@ -36,17 +39,25 @@ var coefficients: texture_storage_2d<r32float, write>;
 // cos(gamma) and what a node adds to a coefficient, without P_l.
 var<workgroup> nodes: array<vec2<f32>, NODES>;
 
+// A lobe that the nodes see. Its integral is the scale over rho (1 + rho), or over rho^2 (Schlick).
+fn widened(lobe: Lobe) -> Lobe {
+    let rho = clamp(lobe.rho, NARROWEST, NARROWEST_BACKWARD);
+    let ratio = rho / lobe.rho;
+    let scale = lobe.scale * ratio * select((1.0 + rho) / (1.0 + lobe.rho), ratio, lobe.squared != 0u);
+    return Lobe(rho, scale, lobe.squared, lobe.mu_squared);
+}
+
 // e^T F sin(gamma).
 fn glow_at(scattering: Phase, depth: f32, a: f32) -> f32 {
     let rate = depth * 2.0 * a / (1.0 + a * a);
     // below the first step p and the exponential do not change
-    var sum = phase_at(scattering, a * a / (1.0 + a * a)) / (1.0 + a * a) * exp(FIRST_STEP - 0.5 * STEP) / STEP;
+    var sum = phase_of(scattering, a * a / (1.0 + a * a), 1.0 / (1.0 + a * a)) / (1.0 + a * a) * exp(FIRST_STEP - 0.5 * STEP) / STEP;
     var i = 0u;
     loop {
         let x = exp(FIRST_STEP + STEP * f32(i));
         let v = a + x;
         let q = 1.0 / (1.0 + v * v);
-        sum += phase_at(scattering, v * v * q) * exp(-rate * x) * x * q;
+        sum += phase_of(scattering, v * v * q, q) * exp(-rate * x) * x * q;
         i++;
         if i >= STEPS { break; }
     }
@@ -76,9 +87,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let a = exp(FIRST_NODE + NODE_STEP * f32(id.x));
     let cosine = (1.0 - a * a) / (1.0 + a * a);
     let sine = 2.0 * a / (1.0 + a * a);
-    var value = phase_at(phase, a * a / (1.0 + a * a)) * sine;
+    var scattering = phase;
+    scattering.lobes = array<Lobe, 2>(widened(phase.lobes[0]), widened(phase.lobes[1]));
+    var value = phase_of(scattering, a * a / (1.0 + a * a), 1.0 / (1.0 + a * a)) * sine;
     if row < depths {
-        value = glow_at(phase, depth_at(f32(row), f32(depths - 1u)), a);
+        value = glow_at(scattering, depth_at(f32(row), f32(depths - 1u)), a);
     }
     // dgamma = sin(gamma) d(ln a); the first node stands for all that is nearer to the light
     let first = select(0.0, 2.0 * a * exp(-0.5 * NODE_STEP), id.x == 0u);

@@ -247,6 +247,9 @@ pub(crate) struct Test {
     /// Also bless goldens that were made on another class of adapters
     #[arg(long, requires = "bless")]
     pub any_adapter: bool,
+    /// Write pages with pictures into DIR; DIR/index.html needs no server
+    #[arg(long, value_name = "DIR")]
+    pub report: Option<PathBuf>,
     /// Write the figures to FILE, and beside it the same as JUnit XML
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,

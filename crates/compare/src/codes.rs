@@ -9,5 +9,8 @@ pub(crate) const NO_TRUTH: Code = Code("no-truth");
 /// What a method's graph gives is no picture of the size that is compared.
 pub(crate) const WRONG_PICTURE: Code = Code("wrong-picture");
 
+/// A method changes the scene, of which the truth is.
+pub(crate) const SCENE_OF_METHOD: Code = Code("scene-of-method");
+
 /// All of them.
-pub const CODES: &[Code] = &[NOTHING_TO_COMPARE, NO_TRUTH, WRONG_PICTURE];
+pub const CODES: &[Code] = &[NOTHING_TO_COMPARE, NO_TRUTH, SCENE_OF_METHOD, WRONG_PICTURE];

@@ -24,7 +24,6 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod truth;
-mod twin;
 
 pub use codes::CODES;
 pub use file::{CompareFile, Entry, read};

@@ -9,21 +9,21 @@ use tyndall_plugin::Registry;
 use tyndall_render::{Loaded, Request};
 use tyndall_scene::{Override, Scene};
 
-use crate::codes::WRONG_PICTURE;
+use crate::codes::{NO_TRUTH, SCENE_OF_METHOD, WRONG_PICTURE};
 use crate::file::{CompareFile, Entry, Setting};
 
-/// A graph that renders the geometry for the truth.
+/// A graph that renders the geometry for the truth: the outputs are what `Geometry` takes.
 const GEOMETRY: &str = r#"(
     version: 1,
     passes: { "surfaces": (use: "core.gbuffer") },
-    outputs: { "depth": "surfaces.depth" },
+    outputs: { "depth": "surfaces.depth", "normal": "surfaces.normal", "material": "surfaces.material" },
 )"#;
 
 /// A scene, and every method ready to draw it.
 pub struct PreparedScene<'f> {
     pub(crate) entry: &'f Entry,
     pub(crate) scene: Scene,
-    /// Of the scene's depth.
+    /// Of what each pixel's ray meets.
     pub(crate) geometry: Plan,
     pub(crate) methods: Vec<PreparedMethod<'f>>,
 }
@@ -42,6 +42,11 @@ pub fn prepare<'f>(file: &'f CompareFile, registry: &Registry, out: &mut Diagnos
     for entry in &file.scenes {
         let mut found = Diagnostics::default();
         let own = own_scene(entry, &mut found);
+        if own.as_ref().is_some_and(Scene::has_height_fog) {
+            let place = file.source.place(entry.name_span);
+            let mistake = Diagnostic::error(NO_TRUTH, place, "there is no truth for height fog to be compared with");
+            found.push(mistake.suggest("leave `scale_height` out of the scene's medium"));
+        }
         let geometry = own.as_ref().and_then(|scene| geometry(file, scene, registry, &mut found));
         out.extend(placed(file, &[entry], found));
         let methods = file.methods.iter().filter_map(|of| method(file, entry, of, registry, out)).collect();
@@ -100,6 +105,12 @@ fn method<'f>(
         size: Some(file.size),
         set: set.collect(),
     };
+    for setting in entry.settings.iter().filter(|setting| setting.text.starts_with("scene.")) {
+        let message =
+            format!("`{}` changes the scene for one method, and all are compared with the light of one", setting.text);
+        let mistake = Diagnostic::error(SCENE_OF_METHOD, file.source.place(setting.span), message);
+        out.push(mistake.suggest("change it in a scene's `set`; a scene file may stand in several scenes"));
+    }
     let plan = tyndall_render::load(&request, registry, &mut found).and_then(|loaded| {
         let place = file.source.place(file.output_span);
         let port = loaded.graph.find(file.light.output(), place).map_err(|mistake| found.push(mistake)).ok()?;

@@ -15,8 +15,7 @@ use crate::measure::Measured;
 use crate::page::{Names, Picture};
 use crate::prepare::PreparedScene;
 use crate::report::Comparison;
-use crate::truth::Truth;
-use crate::twin::Twin;
+use crate::truth::{Geometry, Truth};
 
 /// Told of what is being done; the second is how many steps were done since it was told last, of [`steps`] in all.
 pub type Progress<'a> = &'a (dyn Fn(Option<&str>, u64) + Sync);
@@ -34,9 +33,9 @@ pub enum Error {
         /// Why not.
         error: tyndall_render::Error,
     },
-    /// The machine could not render the depth of a scene.
-    #[error("the depth of scene `{scene}` cannot be rendered: {error}")]
-    Depth {
+    /// The machine could not render the geometry of a scene.
+    #[error("the geometry of scene `{scene}` cannot be rendered: {error}")]
+    Geometry {
         /// The scene's name in the file.
         scene: String,
         /// Why not.
@@ -48,7 +47,7 @@ impl Error {
     /// What the machine or the input lacks.
     pub fn cause(&self) -> &tyndall_render::Error {
         match self {
-            Self::Method { error, .. } | Self::Depth { error, .. } => error,
+            Self::Method { error, .. } | Self::Geometry { error, .. } => error,
         }
     }
 }
@@ -122,7 +121,7 @@ impl Work<'_> {
             move |error| Error::Method { method, scene, error }
         };
         (self.progress)(Some(&format!("{name}: truth")), 0);
-        let truth = self.truth(scene).map_err(|error| Error::Depth { scene: name.to_owned(), error })?;
+        let truth = self.truth(scene).map_err(|error| Error::Geometry { scene: name.to_owned(), error })?;
         let names = Names::new(index, name);
         self.pictures.push(Picture { path: names.truth(), pixels: color::of_truth(&truth) });
         let mut ready = Vec::new();
@@ -150,15 +149,20 @@ impl Work<'_> {
         Ok(SceneFigures { name: name.to_owned(), about: scene.entry.about.clone(), mean: truth.mean(), rows })
     }
 
-    /// The light of the scene in double precision, up to the depth that is rendered.
+    /// The light of the scene in double precision, of the geometry that is rendered.
     fn truth(&mut self, scene: &PreparedScene<'_>) -> Result<Truth, tyndall_render::Error> {
         let plan = scene.geometry.clone();
         let mut running = Running::new(self.gpu, plan, Some(&scene.scene), self.registry, &mut self.cache)?;
         running.frame(FrameOptions::default())?;
-        let depth = running.executor.read(running.executor.plan().roots[0])?;
+        let outputs = running.executor.plan().outputs.clone();
+        let read = |wanted: &str| {
+            let port = outputs.iter().find(|(name, _)| name == wanted).map(|(_, port)| *port);
+            running.executor.read(port.expect("our own graph of the geometry has this output"))
+        };
+        let geometry = Geometry { depth: read("depth")?, normal: read("normal")?, material: read("material")? };
         let (width, height) = self.file.size;
-        let twin = Twin::new(&scene.scene, f64::from(width) / f64::from(height));
-        Ok(Truth::new(self.file.light, &twin, self.file.size, &depth.data, &|| (self.progress)(None, 1)))
+        let twin = scene.scene.twin(0.0, f64::from(width) / f64::from(height));
+        Ok(Truth::new(self.file.light, &twin, self.file.size, &geometry, &|| (self.progress)(None, 1)))
     }
 
     fn draw(&mut self, names: &Names<'_>, of: (usize, &str), found: &[[f32; 3]], errors: &Errors, mean: f64) {

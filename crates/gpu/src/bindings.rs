@@ -2,7 +2,7 @@
 
 use naga::StorageAccess;
 use tyndall_graph::descriptor::{ParamDescriptor, ParamValue};
-use tyndall_shader::{Linked, PARAMS, ParamKind, ParamSource, Resource, ResourceKind, SAMPLERS, SampleClass};
+use tyndall_shader::{Linked, PARAMS, ParamKind, ParamSource, Resource, ResourceKind, SAMPLERS, SampleClass, counted};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -263,13 +263,20 @@ pub(crate) fn each_number(value: &ParamValue, descriptor: &ParamDescriptor, mut 
     }
 }
 
-/// The values of a shader's `override` declarations.
-pub(crate) fn constants(linked: &Linked, pass: PlannedView<'_>, values: &[ParamValue]) -> Vec<(String, f64)> {
+/// The values of a shader's `override` declarations: parameters, and element counts of scene data.
+pub(crate) fn constants(
+    linked: &Linked,
+    pass: PlannedView<'_>,
+    values: &[ParamValue],
+    scene: &mut SceneBuffers,
+) -> Vec<(String, f64)> {
     let mut constants = Vec::new();
     for param in linked.params.iter().filter(|param| param.is_override()) {
         if let Some(index) = pass.param(&param.name) {
             let descriptor = &pass.descriptor().params[index];
             each_number(&values[index], descriptor, |number| constants.push((param.name.clone(), number)));
+        } else if let Some(name) = counted(&param.name) {
+            constants.push((param.name.clone(), f64::from(scene.fixed_count(name))));
         }
     }
     constants

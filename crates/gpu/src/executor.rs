@@ -73,7 +73,8 @@ pub struct Executor {
 }
 
 impl Executor {
-    /// Allocates the plan's resources and makes its passes ready. Call [`crate::memory::check`] first.
+    /// Allocates the plan's resources and makes its passes ready. Call [`crate::memory::check`] first, and set the scene's
+    /// data: pipelines may be made for the element counts of its lists.
     ///
     /// # Errors
     /// What the device or a pass reports; nothing is kept then.
@@ -84,6 +85,7 @@ impl Executor {
         cache: &mut PipelineCache,
         mut scene: SceneBuffers,
     ) -> Result<Self, GpuError> {
+        scene.release_counts();
         let slots = create_all(gpu, &plan)?;
         fill_stated(gpu, &plan, &slots)?;
         let values: Vec<Vec<ParamValue>> =

@@ -29,7 +29,7 @@ impl Kernel {
         let workgroup =
             workgroup.ok_or_else(|| setup.pass.refuse(format!("its shader has no compute entry point `{entry}`")))?;
         let bindings = Bindings::new(setup.gpu, linked, setup.pass, setup.scene, &label)?;
-        let constants = constants(linked, setup.pass, setup.values);
+        let constants = constants(linked, setup.pass, setup.values, setup.scene);
         let constants: Vec<(&str, f64)> = constants.iter().map(|(name, value)| (name.as_str(), *value)).collect();
         let pipeline = setup.cache.compute(setup.gpu, linked, (&label, entry), bindings.layout(), &constants)?;
         Ok(Self { pipeline, bindings, workgroup, label })
@@ -74,7 +74,7 @@ impl Raster {
         let label = setup.pass.descriptor().name.clone();
         let module = setup.cache.module(setup.gpu, linked, &label)?;
         let bindings = Bindings::new(setup.gpu, linked, setup.pass, setup.scene, &label)?;
-        let constants = constants(linked, setup.pass, setup.values);
+        let constants = constants(linked, setup.pass, setup.values, setup.scene);
         let constants: Vec<(&str, f64)> = constants.iter().map(|(name, value)| (name.as_str(), *value)).collect();
         let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
         let mut colors = Vec::new();

@@ -18,6 +18,8 @@ struct Item {
     bytes: u64,
     count: u32,
     version: u64,
+    /// Pipelines were made for this element count.
+    fixed: bool,
 }
 
 impl SceneBuffers {
@@ -26,7 +28,7 @@ impl SceneBuffers {
         if let Some(index) = self.items.iter().position(|item| item.name == name) {
             return index;
         }
-        self.items.push(Item { name: name.to_owned(), buffer: None, bytes: 0, count: 0, version: 0 });
+        self.items.push(Item { name: name.to_owned(), buffer: None, bytes: 0, count: 0, version: 0, fixed: false });
         self.items.len() - 1
     }
 
@@ -35,13 +37,19 @@ impl SceneBuffers {
     /// The first four bytes are the element count that [`SceneBuffers::count`] gives (where the data have one).
     ///
     /// # Errors
-    /// [`GpuError::OverLimit`] where the adapter cannot bind so much at once; what wgpu reports.
+    /// [`GpuError::OverLimit`] where the adapter cannot bind so much at once; [`GpuError::Pass`] where the element count
+    /// changes and a pipeline was made for it; what wgpu reports.
     pub fn set(&mut self, gpu: &Gpu, name: &str, content: &[u8]) -> Result<(), GpuError> {
         let index = self.intern(name);
         let version = hash(content);
         let item = &mut self.items[index];
         if item.buffer.is_some() && item.version == version && item.bytes == content.len() as u64 {
             return Ok(());
+        }
+        let count = content.first_chunk().map_or(0, |head| u32::from_le_bytes(*head));
+        if item.fixed && item.count != count {
+            let reason = "its element count is a part of pipelines: plan anew to change it".to_owned();
+            return Err(GpuError::Pass { pass: format!("the scene's `{name}`"), reason });
         }
         let bytes = (content.len() as u64).next_multiple_of(16).max(16);
         if item.buffer.as_ref().is_none_or(|buffer| buffer.size() != bytes) {
@@ -59,7 +67,7 @@ impl SceneBuffers {
         }
         item.version = version;
         item.bytes = content.len() as u64;
-        item.count = content.first_chunk().map_or(0, |head| u32::from_le_bytes(*head));
+        item.count = count;
         Ok(())
     }
 
@@ -83,6 +91,18 @@ impl SceneBuffers {
     /// The element count that stands at the front of this name's content; 0 where it has none.
     pub fn count(&self, name: &str) -> u32 {
         self.items.iter().find(|item| item.name == name).map_or(0, |item| item.count)
+    }
+
+    /// The same, for a pipeline that is made for it: from now on it may not change.
+    pub(crate) fn fixed_count(&mut self, name: &str) -> u32 {
+        let index = self.intern(name);
+        self.items[index].fixed = true;
+        self.items[index].count
+    }
+
+    /// No pipeline of a former plan counts any more.
+    pub(crate) fn release_counts(&mut self) {
+        self.items.iter_mut().for_each(|item| item.fixed = false);
     }
 
     /// Bytes of all buffers together.

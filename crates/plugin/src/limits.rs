@@ -7,17 +7,26 @@ use crate::ports::arguments;
 /// Something that a scene can have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SceneFeature {
+    /// A point light.
+    Point,
     /// A spot light.
     Spot,
     /// A directional light.
     Directional,
     /// Phong lobes of more than one shininess.
     SeveralShininesses,
+    /// A medium that takes light.
+    Medium,
 }
 
 impl SceneFeature {
-    const NAMED: [(&str, Self); 3] =
-        [("Spot", Self::Spot), ("Directional", Self::Directional), ("SeveralShininesses", Self::SeveralShininesses)];
+    const NAMED: [(&str, Self); 5] = [
+        ("Point", Self::Point),
+        ("Spot", Self::Spot),
+        ("Directional", Self::Directional),
+        ("SeveralShininesses", Self::SeveralShininesses),
+        ("Medium", Self::Medium),
+    ];
 }
 
 /// What a pass does instead, where the scene has such a thing.

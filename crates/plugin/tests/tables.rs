@@ -1,5 +1,7 @@
 //! Lookup tables are passes that are kept: they run again where what they depend on changes, and nowhere else.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod support;
 
 use support::{executor, gpu, planned, registry, scene, set_scene};

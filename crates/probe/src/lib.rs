@@ -1,7 +1,7 @@
 //! For tests: runs WGSL over a list of cases on the machine's device, so that functions of a shader can be held against
 //! their twins in double precision.
 //!
-//! The shader has two variables and one entry point:
+//! The shader has two variables and one entry point (and more variables where it imports such, see [`Probe::run_with`]):
 //!
 //! ```wgsl
 //! var<storage, read> cases: array<Case>;                     // any struct
@@ -28,8 +28,8 @@ pub struct Probe {
     device: wgpu::Device,
     queue: wgpu::Queue,
     pipeline: wgpu::ComputePipeline,
-    cases: u32,
-    results: u32,
+    /// Of each variable by name.
+    bindings: Vec<(String, u32)>,
 }
 
 impl Probe {
@@ -53,8 +53,7 @@ impl Probe {
         }
         let linked = link(&Source::new("probe.wgsl", shader), &library)
             .unwrap_or_else(|problems| panic!("{}", render_text(&problems, false)));
-        let binding = |name: &str| linked.resource(name).unwrap().binding;
-        let (cases, results) = (binding("cases"), binding("results"));
+        let bindings = linked.resources.iter().map(|resource| (resource.name.clone(), resource.binding)).collect();
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("probe"),
             source: wgpu::ShaderSource::Naga(Cow::Owned(linked.module)),
@@ -67,7 +66,7 @@ impl Probe {
             compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
             cache: None,
         });
-        Self { device, queue, pipeline, cases, results }
+        Self { device, queue, pipeline, bindings }
     }
 
     /// The result of each of `count` cases, whose bytes are laid out as WGSL has them.
@@ -75,18 +74,39 @@ impl Probe {
     /// # Panics
     /// Where the device fails.
     pub fn run(&self, cases: &[u8], count: usize) -> Vec<[f32; 4]> {
-        let input = self.buffer(cases.len() as u64, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST);
-        self.queue.write_buffer(&input, 0, cases);
+        self.run_with(cases, count, &[])
+    }
+
+    /// The same with the bytes of more variables by name. One that is not given is an empty list of the scene.
+    ///
+    /// # Panics
+    /// Where the device fails.
+    pub fn run_with(&self, cases: &[u8], count: usize, inputs: &[(&str, &[u8])]) -> Vec<[f32; 4]> {
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let filled = |bytes: &[u8]| {
+            let buffer = self.buffer(bytes.len() as u64, usage);
+            self.queue.write_buffer(&buffer, 0, bytes);
+            buffer
+        };
         let size = 16 * count as u64;
         let output = self.buffer(size, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
         let back = self.buffer(size, wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
+        let buffer = |name: &str| match (name, inputs.iter().find(|input| input.0 == name)) {
+            ("cases", _) => filled(cases),
+            ("results", _) => output.clone(),
+            (_, Some((_, bytes))) => filled(bytes),
+            _ => filled(&[0; 64]),
+        };
+        let buffers: Vec<(u32, wgpu::Buffer)> =
+            self.bindings.iter().map(|(name, binding)| (*binding, buffer(name))).collect();
+        let entries: Vec<wgpu::BindGroupEntry<'_>> = buffers
+            .iter()
+            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding: *binding, resource: buffer.as_entire_binding() })
+            .collect();
         let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,
             layout: &self.pipeline.get_bind_group_layout(0),
-            entries: &[
-                wgpu::BindGroupEntry { binding: self.cases, resource: input.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: self.results, resource: output.as_entire_binding() },
-            ],
+            entries: &entries,
         });
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         {

@@ -12,7 +12,7 @@ use tyndall_plugin::{Registry, SceneFeature};
 use tyndall_scene::Scene;
 use tyndall_scene::model::LightKind;
 
-use crate::codes::{INPUT_NEEDED, LIMIT, NO_SCENE};
+use crate::codes::{INPUT_NEEDED, LIMIT, NO_SCENE, NOT_HOMOGENEOUS};
 use crate::error::Error;
 
 /// What is to be rendered.
@@ -87,6 +87,8 @@ impl Loaded {
 
 fn has(scene: &Scene, feature: SceneFeature) -> bool {
     match feature {
+        SceneFeature::Point => scene.lights.iter().any(|light| light.kind == LightKind::Point),
+        SceneFeature::Medium => scene.medium.as_ref().is_some_and(|medium| medium.extinction.max_element() > 0.0),
         SceneFeature::Spot => scene.lights.iter().any(|light| matches!(light.kind, LightKind::Spot { .. })),
         SceneFeature::Directional => scene.lights.iter().any(|light| light.kind == LightKind::Directional),
         SceneFeature::SeveralShininesses => {
@@ -115,6 +117,9 @@ pub fn load(request: &Request, registry: &Registry, out: &mut Diagnostics) -> Op
     let validate_us = start.elapsed().as_secs_f64() * 1e6;
     let graph = graph?;
     let scene = load_scene(request, &graph, &scene_overrides, out)?;
+    if scene.as_ref().is_some_and(Scene::has_height_fog) {
+        refuse_homogeneous(&graph, out);
+    }
     Some(Loaded { graph, scene, load_us, validate_us })
 }
 
@@ -133,6 +138,23 @@ fn overrides(request: &Request, out: &mut Diagnostics) -> (Overrides, tyndall_sc
         }
     }
     (graph, scene)
+}
+
+/// A pass that reads the medium and not how its density falls with the height would be silently wrong.
+fn refuse_homogeneous(graph: &Graph, out: &mut Diagnostics) {
+    for pass in graph.passes.node_weights().filter(|pass| pass.enabled) {
+        let descriptor = pass.descriptor();
+        let reads = |name: &str| descriptor.scene.iter().any(|read| read == name);
+        if reads("medium") && !reads("height_fog") {
+            let message = format!(
+                "pass `{}` ({}) is right in a homogeneous medium only, and the scene's medium has a `scale_height`",
+                pass.name, descriptor.name
+            );
+            let hint = "use passes for height fog (`airlight.height_fog`, `surface_radiance.direct`, as in \
+                        height-fog.graph.ron), or leave `scale_height` out of the scene";
+            out.push(Diagnostic::error(NOT_HOMOGENEOUS, graph.place(pass.span), message).suggest(hint));
+        }
+    }
 }
 
 /// `None` where the scene has mistakes; `Some(None)` where the graph needs no scene and none is given.

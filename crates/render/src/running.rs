@@ -16,8 +16,7 @@ const READBACK_COPIES: u64 = 4;
 pub struct Running<'a> {
     /// What runs it.
     pub executor: Executor,
-    scene: Option<&'a Scene>,
-    encoded: Option<Encoded>,
+    scene: Option<(&'a Scene, Encoded)>,
     aspect: f64,
 }
 
@@ -36,8 +35,14 @@ impl<'a> Running<'a> {
         let largest = plan.roots.iter().map(|port| plan.resource(*port).bytes()).max().unwrap_or_default();
         memory::check(gpu, &plan, READBACK_COPIES * largest)?;
         let aspect = f64::from(plan.size.0) / f64::from(plan.size.1);
-        let executor = Executor::new(gpu, Arc::new(plan), registry, cache, SceneBuffers::default())?;
-        Ok(Self { executor, scene, encoded: None, aspect })
+        let scene = scene.map(|scene| (scene, scene.encode(0.0, aspect)));
+        // Before the pipelines, which may be made for the lengths of its lists.
+        let mut buffers = SceneBuffers::default();
+        for (name, bytes) in scene.iter().flat_map(|(_, encoded)| &encoded.items) {
+            buffers.set(gpu, name, bytes)?;
+        }
+        let executor = Executor::new(gpu, Arc::new(plan), registry, cache, buffers)?;
+        Ok(Self { executor, scene, aspect })
     }
 
     /// Brings the scene to the frame's time, and runs the frame.
@@ -50,21 +55,10 @@ impl<'a> Running<'a> {
     }
 
     fn bring_scene_to(&mut self, time: f64) -> Result<(), Error> {
-        let Some(scene) = self.scene else { return Ok(()) };
+        let Some((scene, encoded)) = &mut self.scene else { return Ok(()) };
         let gpu = self.executor.gpu().clone();
-        match &mut self.encoded {
-            Some(encoded) => {
-                for name in encoded.update(scene, time, self.aspect) {
-                    self.executor.scene.set(&gpu, name, encoded.bytes(name))?;
-                }
-            }
-            None => {
-                let encoded = scene.encode(time, self.aspect);
-                for (name, bytes) in &encoded.items {
-                    self.executor.scene.set(&gpu, name, bytes)?;
-                }
-                self.encoded = Some(encoded);
-            }
+        for name in encoded.update(scene, time, self.aspect) {
+            self.executor.scene.set(&gpu, name, encoded.bytes(name))?;
         }
         Ok(())
     }

@@ -19,6 +19,8 @@ codes! {
     CAMERA_ON_TARGET = "camera-on-target";
     /// `up` is parallel to the view, at a key or between two.
     UP_ALONG_VIEW = "up-along-view";
+    /// A file that holds no phase function.
+    PHASE_TABLE = "phase-table";
     /// No camera in the scene file, and none in a glTF file that it names.
     MISSING_CAMERA = "missing-camera";
     /// `Keys([])`.

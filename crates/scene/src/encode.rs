@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use tyndall_shaders::phase;
-use tyndall_shaders::scene::Phase;
+use tyndall_shaders::scene::{HeightFog, Phase};
 
 use crate::adjacency::Adjacency;
 use crate::cosine_lobes::CosineLobes;
@@ -18,6 +18,9 @@ pub const SCENE_DATA: &[&str] = &[
     "camera",
     "medium",
     "phase",
+    "phase_table",
+    "height_fog",
+    "ambient",
     "background",
     "lights",
     "vertices",
@@ -30,9 +33,9 @@ pub const SCENE_DATA: &[&str] = &[
 ];
 
 const CAMERA: usize = 0;
-const LIGHTS: usize = 4;
-const VERTICES: usize = 5;
-const TRIANGLES: usize = 6;
+const LIGHTS: usize = 7;
+const VERTICES: usize = 8;
+const TRIANGLES: usize = 9;
 
 /// The bytes of each name of scene data.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,6 +55,9 @@ impl Encoded {
             bytes_of(&camera(&frame.camera, aspect)).to_vec(),
             bytes_of(&layout::Medium::from(medium)).to_vec(),
             bytes_of(&layout::Phase::from(&medium.phase)).to_vec(),
+            phase_table(&medium.phase),
+            bytes_of(&height_fog(&scene.height_fog)).to_vec(),
+            bytes_of(&layout::Ambient { radiance: floats(scene.ambient), pad: 0.0 }).to_vec(),
             bytes_of(&layout::Background { radiance: floats(scene.background), pad: 0.0 }).to_vec(),
             list(frame.lights.iter().map(|light| encoded_light(light, &lobes))),
             vertices(scene, &frame),
@@ -167,6 +173,20 @@ impl From<&Phase> for layout::Phase {
         }
         encoded
     }
+}
+
+/// A measured phase function as a list; an empty one where it is made of lobes.
+pub fn phase_table(phase: &Phase) -> Vec<u8> {
+    let Phase::Measured(table) = phase else { return list(std::iter::empty::<[f32; 4]>()) };
+    let items = table.items();
+    let header = layout::PhaseTable { count: items.len() as u32, total: table.total() as f32, ..Default::default() };
+    [bytes_of(&header), cast_slice(&items)].concat()
+}
+
+fn height_fog(fog: &HeightFog) -> layout::HeightFog {
+    // a scale height that is next to nothing must not become infinite: 0 times that is no number
+    let falloff = fog.falloff.min(1e30) as f32;
+    layout::HeightFog { base_height: fog.base_height as f32, falloff, ..Default::default() }
 }
 
 fn encoded_light(light: &FrameLight, lobes: &CosineLobes) -> layout::Light {

@@ -70,6 +70,44 @@ pub struct Phase {
     pub lobes: [Lobe; 2],
 }
 
+/// `HeightFog`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct HeightFog {
+    /// m.
+    pub base_height: f32,
+    /// 1/m.
+    pub falloff: f32,
+    /// 0.
+    pub pad0: f32,
+    /// 0.
+    pub pad1: f32,
+}
+
+/// `Ambient`, padded to the 16 bytes that a uniform takes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct Ambient {
+    /// W/(sr·m²).
+    pub radiance: [f32; 3],
+    /// 0.
+    pub pad: f32,
+}
+
+/// What stands before the items of `PhaseTable`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct PhaseTable {
+    /// Number of items.
+    pub count: u32,
+    /// Integral over the scattering angle, 1/sr.
+    pub total: f32,
+    /// 0.
+    pub pad0: u32,
+    /// 0.
+    pub pad1: u32,
+}
+
 /// `Background`, padded to the 16 bytes that a uniform takes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]

@@ -4,17 +4,20 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use glam::DVec3;
 use tyndall_document::{Diagnostic, Diagnostics, MISSING_FILE, Span};
 
 use crate::animate::Animated;
 use crate::codes::{GLTF_METAL, MISSING_CAMERA, SCENE_TOO_LARGE, UNKNOWN_SUFFIX};
-use crate::decode::{CameraDraft, Draft, MeshDraft, ObjectDraft};
+use crate::decode::{CameraDraft, Draft, MediumDraft, MeshDraft, ObjectDraft};
 use crate::gltf::{self, MOST_ELEMENTS, Model};
 use crate::mesh::Mesh;
-use crate::model::{Camera, Instance, Light, Material, Object, Placement};
+use crate::model::{Camera, Instance, Light, Material, Medium, Object, Placement};
 use crate::overrides::Merged;
+use crate::phase_file;
 use crate::primitives::Primitive;
 use crate::scene::Scene;
+use tyndall_shaders::scene::Phase;
 
 /// Reads each file once, however many objects name it.
 struct Files<'a> {
@@ -37,6 +40,7 @@ pub(crate) fn scene(draft: Draft, merged: &Merged, whole: Span, folder: &Path, o
     let plain = plain.collect();
     let mut files = Files { merged, folder, out, known: BTreeMap::new(), plain, read: Vec::new() };
     let models: Vec<Option<Arc<Model>>> = draft.objects.iter().map(|object| files.model(object)).collect();
+    let phase = files.phase(draft.medium.as_ref());
     let complete = draft.objects.iter().zip(&models).all(|(o, m)| m.is_some() == matches!(o.mesh, MeshDraft::File(..)));
     let read = files.read;
     let camera = camera(draft.camera, &models).or_else(|| {
@@ -53,7 +57,11 @@ pub(crate) fn scene(draft: Draft, merged: &Merged, whole: Span, folder: &Path, o
         return None;
     }
     let mut scene = Scene::new(camera?, read);
-    scene.medium = draft.medium;
+    if let Some(MediumDraft { medium, height_fog, ambient, emission, .. }) = draft.medium {
+        scene.height_fog = height_fog;
+        scene.ambient = ambient + (DVec3::ONE - medium.albedo) * emission;
+        scene.medium = Some(Medium { phase: phase?, ..medium });
+    }
     scene.background = draft.background;
     scene.lights = draft.lights.unwrap_or_else(|| lights(&models));
     let mut shared = Shared::default();
@@ -64,10 +72,26 @@ pub(crate) fn scene(draft: Draft, merged: &Merged, whole: Span, folder: &Path, o
 }
 
 impl Files<'_> {
+    /// Where a path of the scene file leads.
+    fn path(&self, text: &str, span: Span) -> PathBuf {
+        // Paths on the command line are relative to the working directory.
+        if self.merged.is_argument(span) { PathBuf::from(text) } else { self.folder.join(text) }
+    }
+
+    /// The phase function of the medium; `None` where its file holds none.
+    fn phase(&mut self, medium: Option<&MediumDraft>) -> Option<Phase> {
+        let Some(MediumDraft { phase_file: Some((text, span)), .. }) = medium else {
+            return Some(medium.map_or(Phase::Isotropic, |draft| draft.medium.phase));
+        };
+        let path = self.path(text, *span);
+        let table = phase_file::read(&path, &self.merged.source.place(*span), self.out);
+        self.read.push(path);
+        table.map(Phase::Measured)
+    }
+
     fn model(&mut self, object: &ObjectDraft) -> Option<Arc<Model>> {
         let MeshDraft::File(text, span) = &object.mesh else { return None };
-        // Paths on the command line are relative to the working directory.
-        let path = if self.merged.is_argument(*span) { PathBuf::from(text) } else { self.folder.join(text) };
+        let path = self.path(text, *span);
         if let Some(known) = self.known.get(&path) {
             return known.clone();
         }

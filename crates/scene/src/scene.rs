@@ -13,6 +13,7 @@ use crate::frame::{Bounds, Frame};
 use crate::model::{Camera, Instance, Light, LightKind, Material, Medium, Object, Placement, Texture};
 use crate::overrides::{Merged, Overrides};
 use crate::resolve;
+use tyndall_shaders::scene::HeightFog;
 
 /// Everything that a scene file and the files named in it say, checked and ready to be encoded for any time.
 #[derive(Clone, Debug)]
@@ -21,6 +22,10 @@ pub struct Scene {
     pub camera: Camera,
     /// What fills space, if anything.
     pub medium: Option<Medium>,
+    /// How the medium's density falls with the height.
+    pub height_fog: HeightFog,
+    /// What the medium sends toward the eye that comes from no light, where it is thick, W/(sr·m²).
+    pub ambient: DVec3,
     /// What a ray that meets nothing sees, W/(sr·m²).
     pub background: DVec3,
     /// Those of the scene file or, where it leaves `lights` out, of its glTF files.
@@ -80,6 +85,8 @@ impl Scene {
         Scene {
             camera,
             medium: None,
+            height_fog: HeightFog::NONE,
+            ambient: DVec3::ZERO,
             background: DVec3::ZERO,
             lights: Vec::new(),
             objects: Vec::new(),
@@ -90,9 +97,15 @@ impl Scene {
         }
     }
 
-    /// Every file that was read: the scene file, glTF files, their buffers and pictures. What a watcher watches.
+    /// Every file that was read: the scene file, glTF files, their buffers and pictures, a phase
+    /// function. What a watcher watches.
     pub fn files(&self) -> &[PathBuf] {
         &self.files
+    }
+
+    /// Whether the density of the medium falls with the height.
+    pub fn has_height_fog(&self) -> bool {
+        self.height_fog.falloff > 0.0
     }
 
     /// Everything that depends on the time, in world space.

@@ -18,6 +18,8 @@ impl Scene {
                 albedo: DVec3::ONE,
                 phase: twin::Phase::Isotropic,
             }),
+            height_fog: self.height_fog,
+            ambient: self.ambient,
             background: self.background,
             lights: frame.lights.iter().map(light).collect(),
         }

@@ -118,6 +118,8 @@ fn phase_functions() {
         ("Schlick(k: 0.5)", Phase::Schlick { k: 0.5 }),
         ("Rayleigh", Phase::Rayleigh),
         ("CornetteShanks(g: 0.9)", Phase::CornetteShanks { g: 0.9 }),
+        ("Droplets(diameter: 20)", Phase::Droplets { diameter: 20.0 }),
+        ("Droplets(5)", Phase::Droplets { diameter: 5.0 }),
     ] {
         let scene = with_camera(&format!("medium: (phase: {text})"));
         assert_eq!(scene.medium.as_ref().expect("a medium").phase, expected, "{text}");
@@ -264,4 +266,37 @@ fn scenes_of_the_repository() {
         }
     }
     assert!(count >= 2, "{count} scenes in graphs/scenes");
+}
+
+/// Height fog, and what the medium sends out of itself: absent, they are nothing.
+#[test]
+fn height_fog_ambient_and_emission() {
+    let plain = with_camera("medium: (extinction: (1, 2, 3))");
+    let fog: layout::HeightFog = view(&plain, "height_fog");
+    assert_eq!((fog.falloff, plain.has_height_fog()), (0.0, false));
+    assert_eq!(view::<layout::Ambient>(&plain, "ambient").radiance, [0.0; 3]);
+    let scene = with_camera(
+        "medium: (albedo: (1, 0.5, 0), scale_height: 4, base_height: 7, ambient: (0.1, 0.1, 0.1), emission: (2, 2, 2))",
+    );
+    let fog: layout::HeightFog = view(&scene, "height_fog");
+    assert_eq!((fog.falloff, fog.base_height, scene.has_height_fog()), (0.25, 7.0, true));
+    assert_eq!(view::<layout::Ambient>(&scene, "ambient").radiance, [0.1, 1.1, 2.1]);
+}
+
+/// A measured phase function is read from its file, which is watched.
+#[test]
+fn measured_phase_functions() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../graphs/scenes");
+    let text =
+        "(camera: (position: (0, 1, 5), look_at: (0, 1, 0)), medium: (phase: Measured(\"phase/fog_20um.phase.txt\")))";
+    let source = Source::new("test.scene.ron", text);
+    let (scene, _) = Scene::from_source(&source, &folder, &Overrides::new()).expect("it is a scene");
+    assert!(scene.files().iter().any(|file| file.ends_with("phase/fog_20um.phase.txt")), "{:?}", scene.files());
+    let phase = scene.medium.as_ref().expect("a medium").phase;
+    assert!(matches!(phase, Phase::Measured(_)), "{phase:?}");
+    let encoded = scene.encode(0.0, 1.0);
+    let count = u32::from_le_bytes(*encoded.bytes("phase_table").first_chunk().expect("a list"));
+    assert_eq!(encoded.bytes("phase_table").len(), 16 + 16 * count as usize);
+    let legendre = layout::Phase::from(&phase).legendre;
+    assert!((legendre[0] - 1.0).abs() < 1e-6 && (0.85..0.88).contains(&legendre[1]), "{legendre:?}");
 }

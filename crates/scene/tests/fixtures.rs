@@ -49,6 +49,9 @@ fn mistakes_of_the_document_are_told() {
         ["not-finite"]
     );
     assert_eq!(codes("(camera: (position: (0, 0, 1)))"), ["missing-field"]);
+    assert_eq!(codes(&format!("({camera}, medium: (base_height: 3))")), ["missing-field"]);
+    assert_eq!(codes(&format!("({camera}, medium: (phase: Measured(\"nowhere.txt\")))")), ["missing-file"]);
+    assert_eq!(codes(&format!("({camera}, medium: (phase: Measured(3)))")), ["wrong-type"]);
 }
 
 /// All mistakes of a file at once, in its order.

@@ -5,7 +5,8 @@ use std::mem::{offset_of, size_of};
 
 use naga::{Module, TypeInner};
 use tyndall_scene::layout::{
-    Background, Camera, CosineLobe, Header, Light, Lobe, Material, Medium, Object, Phase, Texture, Vertex,
+    Ambient, Background, Camera, CosineLobe, Header, HeightFog, Light, Lobe, Material, Medium, Object, Phase,
+    PhaseTable, Texture, Vertex,
 };
 
 /// Offset of each member, and size, of each struct of the file.
@@ -46,8 +47,20 @@ fn structs_match_the_shader() {
     same!(structs, Object { material, casts_shadow, pad0, pad1 });
     same!(structs, Material { diffuse, texture, specular, shininess, lobe, pad0, pad1, pad2 });
     same!(structs, Texture { offset, width, height, wrap });
-    let (members, size) = &structs["Background"];
-    assert_eq!((members.as_slice(), *size), ([("radiance".to_owned(), 0)].as_slice(), size_of::<Background>()));
+    same!(structs, HeightFog { base_height, falloff, pad0, pad1 });
+    for (name, expected) in [("Background", size_of::<Background>()), ("Ambient", size_of::<Ambient>())] {
+        let (members, size) = &structs[name];
+        assert_eq!((members.as_slice(), *size), ([("radiance".to_owned(), 0)].as_slice(), expected), "{name}");
+    }
+    let (members, _) = &structs["PhaseTable"];
+    let expected = [
+        ("count", offset_of!(PhaseTable, count)),
+        ("total", offset_of!(PhaseTable, total)),
+        ("pad0", offset_of!(PhaseTable, pad0)),
+        ("pad1", offset_of!(PhaseTable, pad1)),
+        ("items", size_of::<PhaseTable>()),
+    ];
+    assert_eq!(*members, expected.map(|(name, offset)| (name.to_owned(), offset)));
 }
 
 #[test]

@@ -19,7 +19,8 @@
 //! ```
 //! No `@group`, no `@binding`, no `@id`: [`link`] assigns `@group(0) @binding(n)` to the variables that some entry
 //! point uses, in the order of naga's list of globals; all others are dropped from the module. The value of an
-//! `override` is given when the pipeline is made, as wgpu's pipeline constant of the same name.
+//! `override` is given when the pipeline is made, as wgpu's pipeline constant of the same name. One named after a list of
+//! the scene (`override lights_count: u32`) is its element count, see [`counted`].
 //!
 //! This crate knows naga and no wgpu; nothing here touches a GPU or (but for [`Library::read_folder`]) a file.
 
@@ -43,7 +44,7 @@ pub use check::{check, check_all};
 pub use codes::CODES;
 pub use library::Library;
 pub use link::{CAPABILITIES, Linked, Unused, link};
-pub use naming::{PARAMS, SAMPLERS, Sampler, sampler};
+pub use naming::{PARAMS, SAMPLERS, Sampler, counted, sampler};
 pub use params::{Param, ParamDefault, ParamKind, ParamSource};
 pub use ports::{ReflectedPort, derive_port, reflect_ports};
 pub use reflect::{EntryPoint, Resource, ResourceKind, SampleClass, Target, storage_format};

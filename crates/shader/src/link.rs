@@ -55,7 +55,7 @@ pub struct Linked {
     pub params: Vec<Param>,
     /// Variables and overrides of the root that no entry point uses.
     pub unused: Vec<Unused>,
-    /// Of the linked text; stable within one process.
+    /// Of the linked text; the same in every process of one build of the program.
     pub fingerprint: u64,
     map: Map,
 }

@@ -3,6 +3,12 @@
 /// The uniform variable whose members are parameters.
 pub const PARAMS: &str = "params";
 
+/// The scene data whose element count an `override` of this name is: `phase_table` of `phase_table_count`. It is given
+/// when the pipeline is made, so that what a scene does not need costs nothing; it is no parameter.
+pub fn counted(name: &str) -> Option<&str> {
+    name.strip_suffix("_count")
+}
+
 /// A sampler that every shader may declare by name: `var linear_clamp: sampler;`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sampler {

@@ -87,9 +87,9 @@ fn drop_orphans(ready: &Ready, records: &mut golden::Records, outcome: &mut Outc
     let keys: Vec<String> = claimed.iter().filter_map(|name| Some(name.rsplit_once('.')?.0.to_owned())).collect();
     let before = records.clone();
     records.retain(&|key| keys.iter().any(|kept| kept == key));
-    if *records != before {
-        if let Err(why) = records.write(&folder) {
-            outcome.problems.push(Problem::NotBlessed(why));
-        }
+    if *records != before
+        && let Err(why) = records.write(&folder)
+    {
+        outcome.problems.push(Problem::NotBlessed(why));
     }
 }

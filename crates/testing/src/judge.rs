@@ -8,7 +8,7 @@ use tyndall_image::Image;
 use tyndall_plugin::ReferenceInput;
 
 use crate::adapter::AdapterClass;
-use crate::file::{Property, Tapped};
+use crate::file::{MOST_TEXELS, Property, Tapped};
 use crate::golden;
 use crate::metric::Judgement;
 use crate::options::Options;
@@ -46,6 +46,7 @@ impl Judge<'_> {
             stale: Vec::new(),
             actual: rendered.picture(&self.ready.plan, tapped.port),
             expected: None,
+            metric: tapped.golden.as_ref().map(|golden| golden.metric(self.adapter)),
         };
         let Some(actual) = outcome.actual.clone() else {
             outcome.checks.push(Check::new("rendered", Judgement::failed("it was not rendered".to_owned())));
@@ -56,7 +57,9 @@ impl Judge<'_> {
             self.golden(tapped, rendered, &actual, &mut outcome);
             self.reference(tapped, &actual, &mut outcome);
         }
-        for property in &tapped.properties {
+        let of_any_size =
+            |property: &&Property| self.options.size.is_none() || !matches!(property, Property::Mean { .. });
+        for property in tapped.properties.iter().filter(of_any_size) {
             outcome.checks.push(self.property(property, tapped, &actual, rendered));
         }
         outcome
@@ -69,6 +72,8 @@ impl Judge<'_> {
         if let Some(record) = records.get(&outcome.key) {
             outcome.stale = record.stale(made_from.as_ref());
         }
+        let thinned = actual.thinned(MOST_TEXELS);
+        let actual = outcome.actual.insert(thinned);
         let judgement = match golden::read(&self.ready.file.goldens(), &outcome.key, records, actual) {
             Ok(expected) => {
                 let judgement = golden.metric(self.adapter).judge(actual, &expected);
@@ -112,10 +117,13 @@ impl Judge<'_> {
         let registered = self.ready.registry.pass(&descriptor.name).and_then(|pass| pass.reference);
         let reference = registered.ok_or_else(|| format!("`{}` has no reference on the CPU", descriptor.name))?;
         let ports = || descriptor.ports.iter().enumerate();
-        let inputs = self.ready.inputs(tapped.port.pass).into_iter();
-        let inputs = inputs.filter_map(|(index, from)| {
-            Some((descriptor.ports[index].name.as_str(), rendered.ports.get(&from)?.as_ref()))
-        });
+        let mut inputs = BTreeMap::new();
+        for (index, from) in self.ready.inputs(tapped.port.pass) {
+            let name = descriptor.ports[index].name.as_str();
+            let data =
+                rendered.ports.get(&from).ok_or_else(|| format!("what is fed into `{name}` was not rendered"))?;
+            inputs.insert(name, data.as_ref());
+        }
         let resources = ports().filter_map(|(index, port)| {
             Some((port.name.as_str(), plan.slots[plan.bindings(position)[index]? as usize].resource))
         });
@@ -129,7 +137,7 @@ impl Judge<'_> {
         let (time, aspect) = moment(plan, frame);
         let scene = self.ready.loaded.scene.as_ref().map(|scene| scene.twin(time, aspect));
         let input = ReferenceInput {
-            inputs: inputs.collect(),
+            inputs,
             resources: resources.collect(),
             params: params.map(|(param, setting)| (param.name.as_str(), value(setting))).collect(),
             scene: scene.as_ref(),
@@ -171,13 +179,13 @@ pub(crate) fn attribute(plan: &Plan, outcome: &mut Outcome) {
     }
     // Only now is it known what a check about other passes falls with; a pass that nothing excuses fails by itself.
     for port in outcome.ports.iter().filter(|port| !port.passed()) {
-        let failed = port.checks.iter().filter(|check| !check.judgement.passed);
-        let excused = failed.fold(true, |all, check| all && blame.falls_with(&port.pass, &check.also_on));
+        let mut failed = port.checks.iter().filter(|check| !check.judgement.passed);
+        let excused = failed.all(|check| blame.falls_with(&port.pass, &check.also_on));
         blame.failing(&port.pass, !excused);
     }
     for port in outcome.ports.iter_mut().filter(|port| !port.passed()) {
-        let failed = port.checks.iter().filter(|check| !check.judgement.passed);
-        let excused = failed.fold(true, |all, check| all && blame.falls_with(&port.pass, &check.also_on));
+        let mut failed = port.checks.iter().filter(|check| !check.judgement.passed);
+        let excused = failed.all(|check| blame.falls_with(&port.pass, &check.also_on));
         port.state = if excused { State::Inherited } else { State::Guilty };
     }
     for relation in outcome.relations.iter_mut().filter(|relation| !relation.judgement.passed) {

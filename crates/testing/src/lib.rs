@@ -11,6 +11,7 @@
 //! | figures: [`Metric`], properties, relations | `metric`, `property`, `relation` |
 //! | whose fault it is: [`Outcome`] | `judge` |
 //! | goldens and what they were made from | [`golden`] |
+//! | pages that show it | [`report`] |
 //!
 //! It knows no command line; the verbs `tyndall test` and `tyndall diff` are one user of it, the tests of a plugin's
 //! crate another:
@@ -39,6 +40,7 @@ mod outcome;
 mod picture;
 mod property;
 mod relation;
+pub mod report;
 mod robust;
 mod run;
 mod session;
@@ -53,7 +55,7 @@ pub use file::TestFile;
 pub use fingerprint::Fingerprint;
 pub use metric::{Judgement, Metric};
 pub use options::{Options, Robustness};
-pub use outcome::{Check, GOLDEN, Outcome, PortOutcome, Problem, RelationOutcome, State};
+pub use outcome::{Check, GOLDEN, Outcome, PassOutcome, PortOutcome, Problem, RelationOutcome, State};
 pub use picture::Picture;
 pub use session::{Plugins, Rendered, Saved, Session, Variation};
 

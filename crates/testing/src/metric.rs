@@ -84,9 +84,24 @@ impl Metric {
         }
     }
 
+    /// The difference of one number that the tolerance is about, in the unit of the port: where a report draws the line
+    /// between pixels that fail and pixels that do not.
+    pub fn scale(&self, expected: &Picture) -> f64 {
+        match *self {
+            Metric::Exact => f64::from(f32::MIN_POSITIVE),
+            Metric::Absolute { tolerance, .. } => tolerance,
+            Metric::RelativeRmse { tolerance } => {
+                let numbers = expected.compared().data.into_iter().filter(|value| value.is_finite());
+                let (sum, count) = numbers.fold((0.0, 0), |(sum, count), v| (sum + f64::from(v).powi(2), count + 1));
+                tolerance * (sum / f64::from(count.max(1))).sqrt()
+            }
+            Metric::Flip { mean, .. } => mean,
+        }
+    }
+
     /// Compares; pictures that cannot be compared do not pass.
     pub fn judge(&self, actual: &Picture, expected: &Picture) -> Judgement {
-        self.try_judge(actual, expected).unwrap_or_else(Judgement::incomparable)
+        self.try_judge(actual, expected).unwrap_or_else(|why| Judgement::failed(format!("cannot be compared: {why}")))
     }
 
     fn try_judge(&self, actual: &Picture, expected: &Picture) -> Result<Judgement, String> {
@@ -153,10 +168,6 @@ impl Judgement {
     /// One that nothing makes good.
     pub(crate) fn failed(figures: String) -> Self {
         Self { passed: false, figures, excess: f64::INFINITY }
-    }
-
-    fn incomparable(why: String) -> Self {
-        Self::failed(format!("cannot be compared: {why}"))
     }
 }
 

@@ -21,8 +21,8 @@ pub struct Options {
     pub size: Option<(u32, u32)>,
     /// Render again in other ways, and hold every port against the first rendering, bit by bit.
     pub robustness: Robustness,
-    /// Keep pictures of ports that pass too.
-    pub keep_pictures: bool,
+    /// Keep what a report shows: pictures of ports that pass too, and the time of every pass.
+    pub for_report: bool,
 }
 
 /// In which other ways everything is rendered again.

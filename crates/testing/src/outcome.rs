@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use tyndall_document::{Diagnostics, render_text};
 
-use crate::metric::Judgement;
+use crate::metric::{Judgement, Metric};
 use crate::picture::Picture;
 
 /// What a test found.
@@ -29,10 +29,25 @@ pub struct Outcome {
     pub warnings: Diagnostics,
     /// Goldens that were written, with what changed.
     pub blessed: Vec<String>,
-    /// Passes upstream of each pass that was looked at: `(pass, upstream)`, in order.
-    pub graph_order: Vec<(String, Vec<String>)>,
+    /// The passes that ran, in order.
+    pub passes: Vec<PassOutcome>,
     /// Wall-clock time.
     pub took: Duration,
+}
+
+/// A pass that ran.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PassOutcome {
+    /// Its name in the graph.
+    pub name: String,
+    /// Its kind: `plugin.pass`.
+    pub kind: String,
+    /// The passes that it reads.
+    pub reads: Vec<String>,
+    /// Bytes of what it writes.
+    pub bytes: u64,
+    /// GPU time alone, where it was measured.
+    pub microseconds: Option<f64>,
 }
 
 /// What stood in the way of judging.
@@ -73,6 +88,8 @@ pub struct PortOutcome {
     pub actual: Option<Picture>,
     /// Its golden; kept where somebody wants to see it.
     pub expected: Option<Picture>,
+    /// How far from its golden it may be, where it has one.
+    pub metric: Option<Metric>,
 }
 
 /// Whose fault it is.
@@ -155,7 +172,7 @@ impl Outcome {
         let relations =
             self.relations.iter().filter(|relation| relation.state == state).map(|relation| relation.pass.as_str());
         let failing: Vec<&str> = ports.chain(relations).collect();
-        let order = self.graph_order.iter().map(|(pass, _)| pass.as_str());
+        let order = self.passes.iter().map(|pass| pass.name.as_str());
         order.filter(|pass| failing.contains(pass)).collect()
     }
 

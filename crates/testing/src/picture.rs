@@ -37,10 +37,44 @@ impl Picture {
         }
     }
 
+    /// Every k-th texel along each axis, with the least k that leaves no more than `most`; itself where it has no more.
+    #[must_use]
+    pub fn thinned(&self, most: u32) -> Self {
+        let Image { width, height, layers, channels, .. } = self.image;
+        let left =
+            |step: u32| [width, height, layers].iter().map(|extent| u64::from(extent.div_ceil(step))).product::<u64>();
+        let step = (1..=width.max(height).max(layers)).find(|step| left(*step) <= u64::from(most)).unwrap_or(1);
+        if step == 1 {
+            return self.clone();
+        }
+        let axis = |extent: u32| (0..extent).step_by(step as usize);
+        let texels =
+            axis(layers).flat_map(|layer| axis(height).flat_map(move |y| axis(width).map(move |x| (layer, x, y))));
+        let data =
+            texels.filter_map(|(layer, x, y)| self.image.pixel_in_layer(layer, x, y)).flatten().copied().collect();
+        let [width, height, layers] = [width, height, layers].map(|extent| extent.div_ceil(step));
+        Self::new(Image { width, height, layers, channels, data }, self.class)
+    }
+
     /// Alpha of a colour that has one.
     pub fn alpha(&self) -> Option<Image> {
         let colour = matches!(self.class, Class::Color | Class::Display) && self.image.channels == 4;
         let data = || self.image.data.iter().skip(3).step_by(4).copied().collect();
         colour.then(|| Image { channels: 1, data: data(), ..self.image })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_too_large_is_thinned_along_every_axis() {
+        let data = (0..6 * 4 * 2).map(|number| number as f32).collect();
+        let picture = Picture::new(Image { width: 6, height: 4, layers: 2, channels: 1, data }, Class::Data);
+        assert_eq!(picture.thinned(48), picture);
+        let thinned = picture.thinned(47);
+        assert_eq!((thinned.image.width, thinned.image.height, thinned.image.layers), (3, 2, 1));
+        assert_eq!(thinned.image.data, [0.0, 2.0, 4.0, 12.0, 14.0, 16.0]);
     }
 }

@@ -167,10 +167,10 @@ mod tests {
         Picture::new(Image::new(data.len() as u32 / 4, 1, 4, data.to_vec()), class)
     }
 
-    fn holds(property: Property, class: Class, data: &[f32], other: &[f32]) -> bool {
+    fn holds(property: &Property, class: Class, data: &[f32], other: &[f32]) -> bool {
         let other = |_: &str| Some(picture(class, other));
         let computed = || Ok(picture(class, data));
-        judge(&property, &picture(class, data), &other, &computed).passed
+        judge(property, &picture(class, data), &other, &computed).passed
     }
 
     /// Each property with numbers of which it holds and numbers of which it does not.
@@ -194,17 +194,17 @@ mod tests {
             ),
         ];
         for (property, wrong) in color {
-            assert!(holds(property.clone(), Class::Color, &base, &base), "{property:?}");
-            assert!(!holds(property.clone(), Class::Color, &wrong, &base), "{property:?}");
+            assert!(holds(&property, Class::Color, &base, &base), "{property:?}");
+            assert!(!holds(&property, Class::Color, &wrong, &base), "{property:?}");
         }
         let sum = Property::Sum { ports: vec![port(), port()], by };
         let twice = base.map(|value| if value == 1.0 { 1.0 } else { 2.0 * value });
-        assert!(holds(sum.clone(), Class::Color, &twice, &base) && !holds(sum, Class::Color, &base, &base));
+        assert!(holds(&sum, Class::Color, &twice, &base) && !holds(&sum, Class::Color, &base, &base));
         let unit = |or_zero| Property::UnitLength { within: 1e-4, or_zero };
-        assert!(holds(unit(true), Class::Vector, &[0.6, 0.8, 0.0, 7.0, 0.0, 0.0, 0.0, 1.0], &base));
-        assert!(!holds(unit(false), Class::Vector, &[0.6, 0.8, 0.0, 7.0, 0.0, 0.0, 0.0, 1.0], &base));
-        assert!(!holds(unit(true), Class::Vector, &[0.6, 0.9, 0.0, 7.0, 0.0, 0.0, 0.0, 1.0], &base));
-        assert!(!holds(unit(true), Class::Vector, &[f32::NAN, 0.9, 0.0, 7.0, 0.0, 0.0, 0.0, 1.0], &base));
+        assert!(holds(&unit(true), Class::Vector, &[0.6, 0.8, 0.0, 7.0, 0.0, 0.0, 0.0, 1.0], &base));
+        assert!(!holds(&unit(false), Class::Vector, &[0.6, 0.8, 0.0, 7.0, 0.0, 0.0, 0.0, 1.0], &base));
+        assert!(!holds(&unit(true), Class::Vector, &[0.6, 0.9, 0.0, 7.0, 0.0, 0.0, 0.0, 1.0], &base));
+        assert!(!holds(&unit(true), Class::Vector, &[f32::NAN, 0.9, 0.0, 7.0, 0.0, 0.0, 0.0, 1.0], &base));
     }
 
     #[test]

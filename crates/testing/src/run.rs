@@ -16,7 +16,7 @@ use crate::golden::{self, Records};
 use crate::judge::{Judge, attribute};
 use crate::metric::Judgement;
 use crate::options::Options;
-use crate::outcome::{Outcome, Problem, RelationOutcome, State};
+use crate::outcome::{Outcome, PassOutcome, Problem, RelationOutcome, State};
 use crate::picture::Picture;
 use crate::session::{Rendered, Session, Variation};
 use crate::{bless, isolate, relation, robust};
@@ -54,7 +54,7 @@ impl Session {
         let ready = self.ready(path, options, outcome)?;
         outcome.about.clone_from(&ready.file.about);
         outcome.graph.clone_from(&ready.file.request.graph);
-        outcome.graph_order = order(&ready.plan);
+        outcome.passes = passes(&ready.plan);
         if options.isolate {
             isolate::run(self, &ready, options, outcome)?;
         } else {
@@ -76,7 +76,10 @@ impl Session {
             let orphans = golden::orphans(&ready.file.goldens(), &claimed);
             outcome.problems.extend(orphans.into_iter().map(Problem::Orphan));
         }
-        if !options.keep_pictures {
+        if options.for_report {
+            let times = self.times(&ready.loaded, &ready.registry, ready.plan.clone())?;
+            outcome.passes.iter_mut().zip(times).for_each(|(pass, time)| pass.microseconds = time);
+        } else {
             for port in outcome.ports.iter_mut().filter(|port| port.state == State::Passed) {
                 (port.actual, port.expected) = (None, None);
             }
@@ -201,12 +204,21 @@ pub(crate) fn claimed(ready: &Ready) -> BTreeSet<String> {
     names.collect()
 }
 
-/// Every pass of a plan with all that lies upstream of it.
-fn order(plan: &Plan) -> Vec<(String, Vec<String>)> {
-    let upstream = upstream(plan);
-    let named = |pass: usize| plan.pass_name(pass as u32).to_owned();
-    let of = |pass: usize| upstream[pass].iter().map(|other| named(*other)).collect();
-    (0..plan.passes.len()).map(|pass| (named(pass), of(pass))).collect()
+/// The passes of a plan, in order.
+fn passes(plan: &Plan) -> Vec<PassOutcome> {
+    let reads = |pass: u32| {
+        let sources = plan.sources(pass).iter().flatten();
+        let from: BTreeSet<u32> = sources.filter_map(|source| plan.ports[*source as usize].pass).collect();
+        from.into_iter().map(|pass| plan.pass_name(pass).to_owned()).collect()
+    };
+    let pass = |pass: u32| PassOutcome {
+        name: plan.pass_name(pass).to_owned(),
+        kind: plan.descriptor(pass).name.clone(),
+        reads: reads(pass),
+        bytes: plan.outputs_of(pass).map(|port| plan.resource(port).bytes()).sum(),
+        microseconds: None,
+    };
+    (0..plan.passes.len() as u32).map(pass).collect()
 }
 
 /// Positions upstream of each position.

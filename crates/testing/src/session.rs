@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use tyndall_gpu::{Executor, FRAMES_PER_SECOND, FrameOptions, Gpu, PipelineCache, PortData};
-use tyndall_graph::descriptor::{Dimension, Format, Role};
+use tyndall_gpu::{Executor, FRAMES_PER_SECOND, FrameOptions, Gpu, PipelineCache, PortData, Timing};
+use tyndall_graph::descriptor::{Format, Role};
 use tyndall_graph::{Graph, Order, Plan, PlanOptions, PortRef, Resource, Roots};
 use tyndall_plugin::{Plugin, Registry, SearchPath};
 use tyndall_render::{Error, Loaded, Running};
@@ -267,6 +267,22 @@ impl Session {
         self.results.insert(key, data.clone());
     }
 
+    /// GPU time of every pass of a plan by itself, in microseconds; `None` where it cannot be measured.
+    ///
+    /// # Errors
+    /// What the machine cannot do.
+    pub fn times(&mut self, loaded: &Loaded, registry: &Registry, plan: Plan) -> Result<Vec<Option<f64>>, Error> {
+        let passes = plan.passes.len();
+        let mut running = Running::new(&self.gpu, plan, loaded.scene.as_ref(), registry, &mut self.cache)?;
+        running.frame(FrameOptions { everything: true, ..FrameOptions::default() })?;
+        (0..passes)
+            .map(|pass| {
+                let options = FrameOptions { everything: true, timing: Timing::Pass(pass), ..FrameOptions::default() };
+                Ok(running.frame(options)?.gpu_us)
+            })
+            .collect()
+    }
+
     /// Runs one pass of a frame with these inputs given, and reads its ports.
     ///
     /// # Errors
@@ -324,7 +340,7 @@ fn encode(loaded: &Loaded, plan: &Plan, frame: u32) -> Option<Encoded> {
 /// Nothing can be copied into a rasteriser's depth buffer, and whole numbers beyond 24 bits would lose some.
 fn can_be_given(resource: &Resource) -> bool {
     match resource {
-        Resource::Texture { dimension: Dimension::D2 | Dimension::D2Array | Dimension::D3, format, .. } => {
+        Resource::Texture { format, .. } => {
             !matches!(format, Format::Depth32Float | Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint)
         }
         Resource::Buffer { .. } => true,

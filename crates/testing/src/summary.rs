@@ -36,9 +36,14 @@ fn test(outcome: &Outcome) -> Value {
         "inherited": outcome.inherited(),
         "ports": outcome.ports.iter().map(port).collect::<Vec<_>>(),
         "relations": outcome.relations.iter().map(relation).collect::<Vec<_>>(),
+        "passes": outcome.passes.iter().map(pass).collect::<Vec<_>>(),
         "robustness": outcome.robustness,
         "text": outcome.text(),
     })
+}
+
+fn pass(pass: &crate::outcome::PassOutcome) -> Value {
+    json!({ "name": pass.name, "use": pass.kind, "reads": pass.reads, "bytes": pass.bytes, "gpu_us": pass.microseconds })
 }
 
 fn port(port: &PortOutcome) -> Value {
@@ -114,7 +119,7 @@ pub fn junit(outcomes: &[Outcome]) -> String {
 }
 
 /// XML 1.0 has no way to write most control characters at all.
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {

@@ -1,8 +1,8 @@
 //! `cargo xtask demo`: the shipped graphs with the shipped scenes, into `out/`.
 
 use crate::command::{Failure, succeed};
-use crate::driver;
 use crate::workspace::Workspace;
+use crate::{compiler, driver};
 
 /// A graph of `graphs/` and what to write of it, for each of some scenes of `graphs/scenes/`.
 struct Demo {
@@ -25,6 +25,7 @@ const DEMOS: [Demo; 3] = [
 /// # Errors
 /// If one of these fails.
 pub fn run(workspace: &Workspace) -> Result<(), Failure> {
+    compiler::ensure()?;
     succeed(workspace.cargo().args(["build", "--release", "--package", "tyndall"]))?;
     driver::ensure(workspace)?;
     let mut written = Vec::new();

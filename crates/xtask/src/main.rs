@@ -7,12 +7,14 @@
 #![allow(clippy::print_stdout, reason = "what a command-line tool has to say goes to standard output")]
 
 mod command;
+mod compiler;
 mod demo;
 mod driver;
 mod licences;
 mod machine_paths;
 mod one_version;
 mod spdx;
+mod system;
 mod test;
 mod test_output;
 mod workspace;

@@ -8,7 +8,7 @@ use crate::command::{Failure, announce, not_started, succeed, works};
 use crate::machine_paths::{Found, search};
 use crate::test_output::Tally;
 use crate::workspace::Workspace;
-use crate::{driver, licences, one_version};
+use crate::{compiler, driver, licences, one_version};
 
 /// The environment variable that names the folder of real models.
 const ASSETS: &str = "TYNDALL_ASSETS";
@@ -24,13 +24,17 @@ pub fn run(workspace: &Workspace) -> Result<(), Failure> {
     report.tool("format", "fmt", "rustfmt", workspace, |cargo| cargo.args(["fmt", "--all", "--check"]));
     report.step("repository", || repository(workspace));
     let build = || succeed(workspace.cargo().args(["build", "--release", "--package", "tyndall"]));
-    let set_up = report.timed("build", build).and_then(|()| report.timed("driver", || driver::ensure(workspace)));
+    let set_up = report
+        .timed("compiler", compiler::ensure)
+        .and_then(|()| report.timed("build", build))
+        .and_then(|()| report.timed("driver", || driver::ensure(workspace)));
     let mut tally = Tally::default();
     if let Err(failure) = set_up {
         report.print(tally);
         return Err(failure);
     }
     report.step("tests", || tests(workspace, &mut tally));
+    report.step("robustness", || robustness(workspace));
     report.tool("clippy", "clippy", "clippy", workspace, |cargo| {
         cargo.args(["clippy", "--release", "--workspace", "--all-targets", "--", "-D", "warnings"])
     });
@@ -66,6 +70,13 @@ fn repository(workspace: &Workspace) -> Result<(), Failure> {
         Found::NotSearched => println!("not run: the search for machine paths (it needs git and a checkout)"),
     }
     if mistakes.is_empty() { Ok(()) } else { Err(Failure::check(mistakes.join("\n"))) }
+}
+
+/// The image tests once more, small: in another order, from poisoned memory, with and without sharing, twice.
+fn robustness(workspace: &Workspace) -> Result<(), Failure> {
+    let mut tests = workspace.tyndall();
+    tests.args(["test", "--size", "32x32", "--shuffle", "1", "--poison", "--no-sharing", "--repeat", "2"]);
+    succeed(tests.current_dir(&workspace.root))
 }
 
 /// `cargo test`, its output passed on and counted.

@@ -7,7 +7,10 @@ use tyndall_plugin::{Plugin, folder};
 /// The plugin.
 pub fn plugin() -> Plugin {
     let files = folder!(
-        "airlight": "plugin.ron", "h.wgsl", "h_k.wgsl", "homogeneous.wgsl", "legendre.wgsl", "lookup.wgsl", "table.wgsl"
+        "airlight": "plugin.ron", "h.wgsl", "h_k.wgsl", "height_fog.wgsl",
+        "homogeneous.wgsl", "legendre.wgsl", "lookup.wgsl", "table.wgsl"
     );
-    Plugin::new("airlight", files).reference("airlight.homogeneous", reference::homogeneous)
+    Plugin::new("airlight", files)
+        .reference("airlight.homogeneous", reference::homogeneous)
+        .reference("airlight.height_fog", reference::height_fog)
 }

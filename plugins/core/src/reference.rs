@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use tyndall_plugin::descriptor::ParamValue;
 use tyndall_plugin::{PortData, ReferenceInput};
 use tyndall_shaders::colour::srgb_from_linear;
+use tyndall_shaders::medium::{effective_way, opacity, transmittance};
+use tyndall_shaders::ray::ray_of_pixel;
 
 type Outputs = Result<BTreeMap<&'static str, Vec<f32>>, String>;
 
@@ -59,18 +61,21 @@ pub(crate) fn constant(input: &ReferenceInput<'_>) -> Outputs {
     picture("color", input.size("color")?, |_, _| value)
 }
 
-/// Airlight and surface, and behind both the background where a ray meets nothing and no medium is in its way.
+/// Airlight and surface; behind both, where a ray meets nothing, the background as far as the medium lets it through; and
+/// what the medium sends that comes from no light.
 pub(crate) fn compose(input: &ReferenceInput<'_>) -> Outputs {
     let (surface, airlight) = (input.inputs.get("surface").copied(), input.inputs.get("airlight").copied());
-    let (depth, scene) = (input.input("depth")?, input.scene()?);
-    let (extinction, background) = (scene.medium.extinction.to_array(), scene.background.to_array());
-    picture("radiance", input.size("radiance")?, |x, y| {
-        let meets_nothing = depth.data[((y * depth.width + x) * depth.channels) as usize].is_infinite();
-        let (surface, airlight) = (rgb(surface, x, y), rgb(airlight, x, y));
-        std::array::from_fn(|channel| {
-            let behind = if meets_nothing && extinction[channel] <= 0.0 { background[channel] } else { 0.0 };
-            surface[channel] + airlight[channel] + behind
-        })
+    let (depth, scene, size) = (input.input("depth")?, input.scene()?, input.size("radiance")?);
+    picture("radiance", size, |x, y| {
+        let way = f64::from(depth.data[((y * depth.width + x) * depth.channels) as usize]);
+        let ray = ray_of_pixel(&scene.camera, [x, y], size);
+        let effective = effective_way(&scene.height_fog, ray.origin.y, ray.direction.y, way);
+        let mut sum = opacity(&scene.medium, effective) * scene.ambient;
+        if way.is_infinite() {
+            sum += transmittance(&scene.medium, effective) * scene.background;
+        }
+        let (sum, surface, airlight) = (sum.to_array(), rgb(surface, x, y), rgb(airlight, x, y));
+        std::array::from_fn(|channel| surface[channel] + airlight[channel] + sum[channel])
     })
 }
 

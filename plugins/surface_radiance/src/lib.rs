@@ -7,7 +7,7 @@ use tyndall_plugin::{Plugin, folder};
 /// The plugin.
 pub fn plugin() -> Plugin {
     let files = folder!(
-        "surface_radiance": "plugin.ron", "j.wgsl", "j_k.wgsl", "j_texel.wgsl", "legendre.wgsl", "lobes.wgsl", "lookup.wgsl",
+        "surface_radiance": "plugin.ron", "direct.wgsl", "j.wgsl", "j_k.wgsl", "j_texel.wgsl", "legendre.wgsl", "lobes.wgsl", "lookup.wgsl",
         "phong.wgsl", "table.wgsl", "zonal.wgsl"
     );
     Plugin::new("surface_radiance", files).reference("surface_radiance.phong", reference::phong)

@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
 
 use tyndall_document::render_text;
-use tyndall_testing::{Options, Outcome, Problem, Robustness, Saved, Session, discover, summary};
+use tyndall_testing::{Options, Outcome, Problem, Robustness, Saved, Session, discover, report, summary};
 
 use crate::App;
 use crate::cli::{Arguments, Test};
@@ -29,11 +30,16 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Test) -> Result<(), F
     if filter.is_empty() && verb.tap.is_none() {
         outcomes.extend(found.orphans.into_iter().map(orphaned));
     }
-    let report = summary::json(&run.adapter, &outcomes, run.saved);
     if let Some(path) = &verb.json {
-        tyndall_image::write_bytes(path, format!("{report:#}\n").as_bytes())?;
+        let figures = summary::json(&run.adapter, &outcomes, run.saved);
+        tyndall_image::write_bytes(path, format!("{figures:#}\n").as_bytes())?;
         tyndall_image::write_bytes(&path.with_extension("xml"), summary::junit(&outcomes).as_bytes())?;
         terminal::line(&format!("wrote {} and {}", path.display(), path.with_extension("xml").display()));
+    }
+    if let Some(folder) = &verb.report {
+        let start = Instant::now();
+        let page = report::write(folder, &run.adapter, &outcomes).map_err(Failure::Usage)?;
+        terminal::line(&format!("wrote {} in {:.1} s", page.display(), start.elapsed().as_secs_f64()));
     }
     conclude(&outcomes, run.saved)
 }
@@ -54,7 +60,7 @@ fn options(verb: &Test) -> Result<Options, Failure> {
         without_goldens: verb.no_goldens,
         size: verb.size,
         robustness,
-        keep_pictures: false,
+        for_report: verb.report.is_some(),
     })
 }
 

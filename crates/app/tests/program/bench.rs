@@ -30,7 +30,7 @@ fn the_file_has_every_figure() {
     let shared = figures["transient_bytes"]["shared"].as_u64().unwrap();
     assert!(shared > 0 && shared <= figures["transient_bytes"]["unshared"].as_u64().unwrap());
     let runs = runs(&figures);
-    assert_eq!(runs.len(), 5);
+    assert_eq!(runs.len(), 7);
     assert!(runs.iter().all(|(_, runs)| *runs == 4), "every pass runs in every frame: {runs:?}");
 }
 

@@ -12,6 +12,7 @@ mod contributing;
 mod exit_codes;
 mod froxels;
 mod fuzz;
+mod image_coverage;
 mod image_tests;
 mod modes;
 mod outputs;

@@ -304,8 +304,46 @@ fn odd_media_give_sound_pictures() {
         "scene.medium.phase=Schlick(0.9999)",
         "scene.medium.phase=CornetteShanks(-0.9999)",
     ] {
-        draw(&desk, &text, &[set]).assert_sound(set);
+        draw(&desk, &text, &[set, "scattered=true"]).assert_sound(set);
     }
+}
+
+fn mean(image: &Image) -> f64 {
+    image.data.iter().map(|value| f64::from(*value)).sum::<f64>() / image.data.len() as f64
+}
+
+/// Lobes narrower than any surface tells apart scatter as much to it, however narrow they are.
+#[test]
+fn narrow_lobes_light_surfaces_as_much() {
+    let desk = Desk::new();
+    let text = scene(LAMP, FLOOR);
+    let lit = |g: f64| {
+        let set = format!("scene.medium.phase=HenyeyGreenstein({g})");
+        mean(&draw(&desk, &text, &[&set, "scattered=true", "direct=false"]).surface)
+    };
+    for (narrow, narrowest) in [(0.9999, 0.999_999_9), (-0.9999, -0.999_999_9)] {
+        let (narrow, narrowest) = (lit(narrow), lit(narrowest));
+        assert!(narrow > 0.0 && (narrowest / narrow - 1.0).abs() < 0.01, "{narrow} {narrowest}");
+    }
+}
+
+/// A lamp so far away that nothing of it arrives leaves the others as they are.
+#[test]
+fn a_far_lamp_in_height_fog_hides_no_other() {
+    let desk = Desk::new();
+    let graph = shipped("height-fog");
+    let airlight = |lights: &str, name: &str| {
+        let medium = MEDIUM.replace("extinction:", "scale_height: 2.0, extinction:");
+        desk.put("fog.scene.ron", &format!("({CAMERA}, {medium}, lights: [{lights}], objects: [{FLOOR}])"));
+        let output = format!("airlight={name}");
+        let graph = graph.to_str().unwrap();
+        desk.ends(0, &["render", graph, "--scene", "fog.scene.ron", "--size", SIZE, "--output", &output]);
+        read(&desk.path(name)).unwrap()
+    };
+    let far = "Point(position: (3000.0, 2.5, 0.0), intensity: (20.0, 18.0, 15.0))";
+    let (one, both) = (airlight(LAMP, "one.npy"), airlight(&format!("{far}, {LAMP}"), "both.npy"));
+    assert!(mean(&one) > 1e-4);
+    assert_near(&both, &one, 1e-5);
 }
 
 #[test]
@@ -384,5 +422,73 @@ fn a_pixel_of_a_surface_by_hand() {
         let reflected = diffuse / std::f64::consts::PI * cosine + specular * cosine.powi(4);
         let wanted: f64 = reflected * intensity * (-extinction * (distance + 3.0)).exp() / (distance * distance);
         assert!((f64::from(found) / wanted - 1.0).abs() < 1e-4, "{found} {wanted}");
+    }
+}
+
+/// Ambient and emission are added to the whole picture only, by 1 − T; with a surface far away T is known.
+#[test]
+fn ambient_and_emission_grow_with_what_the_medium_hides() {
+    let desk = Desk::new();
+    let wall = "(mesh: Box(size: (400, 400, 2)), translation: (0, 0, -100), material: (diffuse: (0, 0, 0)))";
+    let text = scene(LAMP, wall);
+    let plain = draw(&desk, &text, &[]);
+    let sets = ["scene.medium.ambient=(0.5, 0.25, 0.125)", "scene.medium.emission=(1, 2, 3)"];
+    let glowing = draw(&desk, &text, &sets);
+    assert_near(&glowing.airlight, &plain.airlight, 0.0);
+    assert_near(&glowing.surface, &plain.surface, 0.0);
+    // albedo 0.9, 0.8, 0.7; extinction 0.05, 0.06, 0.08
+    let source = [(0.5 + 0.1, 0.05), (0.25 + 0.4, 0.06), (0.125 + 0.9, 0.08)];
+    for (index, depth) in glowing.depth.data.iter().enumerate() {
+        for (channel, (radiance, extinction)) in source.into_iter().enumerate() {
+            let added = glowing.radiance.data[3 * index + channel] - plain.radiance.data[3 * index + channel];
+            let wanted = radiance * -(-extinction * f64::from(*depth)).exp_m1();
+            assert!((f64::from(added) / wanted - 1.0).abs() < 1e-4, "{added} {wanted}");
+        }
+    }
+    let sky = draw(&desk, &scene("", ""), &sets);
+    for pixel in sky.radiance.data.as_chunks::<3>().0 {
+        assert!(pixel.iter().zip(source).all(|(found, (wanted, _))| (f64::from(*found) - wanted).abs() < 1e-6));
+    }
+}
+
+/// A pass that is right in a homogeneous medium only does not draw height fog, and says so at its place.
+#[test]
+fn homogeneous_passes_refuse_height_fog() {
+    let desk = Desk::new();
+    desk.put("fog.scene.ron", &scene(LAMP, FLOOR).replace("extinction", "scale_height: 5, extinction"));
+    let fog = shipped("fog");
+    let ended = desk.ends(2, &["render", fog.to_str().unwrap(), "--scene", "fog.scene.ron", "--size", SIZE]);
+    assert!(ended.err.contains("not-homogeneous") && ended.err.contains("airlight.homogeneous"), "{}", ended.err);
+    assert!(ended.err.contains("fog.graph.ron:") && ended.err.contains("airlight.height_fog"), "{}", ended.err);
+}
+
+/// The graph of height fog draws the same as the one of homogeneous media where the density does not fall.
+#[test]
+fn height_fog_without_falloff_is_homogeneous() {
+    let desk = Desk::new();
+    desk.put("flat.scene.ron", &scene(&format!("{LAMP}, {SPOT}, {SUN}"), FLOOR));
+    let draw = |graph: &str, settings: &[&str]| {
+        desk.picture(&shipped(graph), &desk.path("flat.scene.ron"), SIZE, "radiance", settings)
+    };
+    let flat = draw("fog", &["scattered=false"]);
+    assert_near(&draw("height-fog", &[]), &flat, 2e-3);
+    assert_near(&draw("height-fog", &["scene.medium.scale_height=1e7"]), &flat, 2e-3);
+    let falling = draw("height-fog", &["scene.medium.scale_height=2"]);
+    assert!(metrics::relative_errors(&falling, &flat, 1e-12, None).unwrap().p50 > 0.01);
+}
+
+/// A table of 1/(4π) is isotropic, in every pass that asks for the phase function.
+#[test]
+fn a_measured_function_is_the_function_that_it_holds() {
+    let desk = Desk::new();
+    desk.put("flat.phase.txt", "angle value\n0 7\n90 7\n180 7\n");
+    desk.put("measured.scene.ron", &scene(&format!("{LAMP}, {SPOT}, {SUN}"), FLOOR));
+    for (graph, settings) in [("airlight", &[][..]), ("reference", &["steps=64", "scattered=false"])] {
+        let draw = |phase: &str| {
+            let set = format!("scene.medium.phase={phase}");
+            let settings: Vec<&str> = settings.iter().copied().chain([set.as_str()]).collect();
+            desk.picture(&shipped(graph), &desk.path("measured.scene.ron"), SIZE, "airlight", &settings)
+        };
+        assert_near(&draw("Measured(\"flat.phase.txt\")"), &draw("Isotropic"), 4e-3);
     }
 }

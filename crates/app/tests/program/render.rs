@@ -37,7 +37,9 @@ fn a_switch_without_its_input_is_told() {
     let told = draw("bare.graph.ron", &[]);
     assert!(told.contains("warning[input-needed]") && told.contains("`table`"), "{told}");
     let without = image(&desk, "a.exr");
-    for quiet in [draw("bare.graph.ron", &["--set", "scattered=false"]), draw("fog.graph.ron", &["--set", "scattered=false"])] {
+    for quiet in
+        [draw("bare.graph.ron", &["--set", "scattered=false"]), draw("fog.graph.ron", &["--set", "scattered=false"])]
+    {
         assert!(!quiet.contains("input-needed"), "{quiet}");
         assert_eq!(metrics::differing_bits(&image(&desk, "a.exr"), &without).unwrap(), 0);
     }

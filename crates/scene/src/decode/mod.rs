@@ -10,15 +10,16 @@ use glam::DVec3;
 use tyndall_document::{Decoder, Node};
 
 pub(crate) use self::camera::CameraDraft;
+pub(crate) use self::medium::MediumDraft;
 pub(crate) use self::objects::{MeshDraft, ObjectDraft};
 use self::values::{Range, vector};
-use crate::model::{Light, Medium};
+use crate::model::Light;
 
 /// What a scene file says, before the files that it names are read.
 #[derive(Debug)]
 pub(crate) struct Draft {
     pub camera: CameraDraft,
-    pub medium: Option<Medium>,
+    pub medium: Option<MediumDraft>,
     pub background: DVec3,
     /// `None` where the field is left out: then the lights of glTF files count.
     pub lights: Option<Vec<Light>>,

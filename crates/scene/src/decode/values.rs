@@ -22,8 +22,12 @@ pub(super) enum Range {
     Unit,
     /// Between the two, both excluded.
     Between(f64, f64),
+    /// Between the two, both included.
+    Within(f64, f64),
     /// Above 0, up to a value that is included.
     UpTo(f64),
+    /// 0 or more, up to a value that is included.
+    NotAbove(f64),
 }
 
 impl Range {
@@ -35,18 +39,23 @@ impl Range {
             Range::Positive => value as f32 > 0.0,
             Range::Unit => (0.0..=1.0).contains(&value),
             Range::Between(low, high) => value > low && value < high,
+            Range::Within(low, high) => (low..=high).contains(&value),
             Range::UpTo(high) => value > 0.0 && value <= high,
+            Range::NotAbove(high) => (0.0..=high).contains(&value),
         }
     }
 
-    fn text(self) -> String {
+    fn text(self, value: f64) -> String {
         match self {
             Range::Any => "fit single precision".to_owned(),
             Range::NotNegative => "be 0 or more".to_owned(),
             Range::Positive => "be above 0".to_owned(),
             Range::Unit => "lie in 0..1".to_owned(),
             Range::Between(low, high) => format!("lie between {low} and {high}, both excluded"),
+            Range::Within(low, high) => format!("lie in {low}..{high}"),
             Range::UpTo(high) => format!("be above 0 and at most {high}"),
+            Range::NotAbove(_) if value < 0.0 => "be 0 or more".to_owned(),
+            Range::NotAbove(high) => format!("be at most {high:e}"),
         }
     }
 }
@@ -62,7 +71,7 @@ pub(super) fn number(decoder: &mut Decoder, node: &Node, name: &str, range: Rang
     // Digits beyond 16 would be noise.
     let extreme = value != 0.0 && !(1e-6..1e16).contains(&value.abs());
     let shown = if extreme { format!("{value:e}") } else { value.to_string() };
-    let message = format!("`{name}` is {shown}; it must {}", must.text());
+    let message = format!("`{name}` is {shown}; it must {}", must.text(value));
     decoder.report(Diagnostic::error(OUT_OF_RANGE, decoder.place(node.span), message));
     None
 }

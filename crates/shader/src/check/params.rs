@@ -5,7 +5,7 @@ use tyndall_graph::descriptor::{ParamDescriptor, ParamValue};
 
 use super::Pass;
 use crate::codes;
-use crate::naming::PARAMS;
+use crate::naming::{PARAMS, counted};
 use crate::params::{Param, ParamDefault, ParamKind, ParamSource};
 
 pub fn check(pass: &Pass<'_>, out: &mut Vec<Diagnostic>) {
@@ -36,7 +36,11 @@ pub fn check(pass: &Pass<'_>, out: &mut Vec<Diagnostic>) {
 }
 
 fn found<'a>(pass: &'a Pass<'_>) -> impl Iterator<Item = &'a Param> {
-    pass.shaders.iter().flat_map(|linked| &linked.params)
+    let of_scene = |param: &&Param| {
+        let list = counted(&param.name).is_some_and(|name| pass.scene_names.contains(&name));
+        param.is_override() && list && pass.descriptor.param(&param.name).is_none()
+    };
+    pass.shaders.iter().flat_map(|linked| &linked.params).filter(move |param| !of_scene(param))
 }
 
 fn unknown(pass: &Pass<'_>, param: &Param) -> Diagnostic {

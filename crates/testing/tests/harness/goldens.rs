@@ -88,7 +88,7 @@ fn a_changed_parameter_and_a_changed_size_are_named() {
     // `aside` now reads what comes after the second link.
     chain.put(
         "chain.graph.ron",
-        &graph.replace("\"input\": \"one.result\" }),\"three", "\"input\": \"one.result\" }),\"three").replace(
+        &graph.replace(
             "\"aside\": (use: \"chain.five\", inputs: { \"input\": \"one.result\" })",
             "\"aside\": (use: \"chain.five\", inputs: { \"input\": \"two.result\" })",
         ),

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
+use tyndall_shaders::phase::PhaseTable;
 use tyndall_shaders::ray::Ray;
 use tyndall_shaders::scene::{Light, Medium, Phase};
 
@@ -24,6 +25,12 @@ pub enum Kind {
     Schlick,
     Rayleigh,
     CornetteShanks,
+    /// Diameters from 5 to 50 µm.
+    Droplets,
+    /// Mie's function of a fog, as shipped.
+    Measured,
+    /// The same with spots as [`Kind::Spot`].
+    MeasuredSpot,
     /// Cutoff from 5° to 90°, exponent to 64.
     Spot,
     /// Cutoff from 90° to 175°, exponent to 64.
@@ -31,9 +38,14 @@ pub enum Kind {
 }
 
 /// xorshift64 (Marsaglia 2003).
-struct Random(u64);
+pub struct Random(u64);
 
 impl Random {
+    /// The same numbers in every run.
+    pub fn new() -> Self {
+        Self(0x9e37_79b9_7f4a_7c15)
+    }
+
     fn next(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
@@ -41,16 +53,16 @@ impl Random {
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn within(&mut self, low: f64, high: f64) -> f64 {
+    pub fn within(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.next()
     }
 
     /// A power of ten.
-    fn magnitude(&mut self, low: f64, high: f64) -> f64 {
+    pub fn magnitude(&mut self, low: f64, high: f64) -> f64 {
         10f64.powf(self.within(low, high))
     }
 
-    fn direction(&mut self) -> DVec3 {
+    pub fn direction(&mut self) -> DVec3 {
         let z = self.within(-1.0, 1.0);
         let angle = self.within(0.0, 2.0 * PI);
         let side = (1.0 - z * z).sqrt();
@@ -68,7 +80,7 @@ fn rounded_vector(value: DVec3) -> DVec3 {
 
 /// `count` cases; `depth` is the largest optical depth of the light's distance.
 pub fn random(count: usize, kind: Kind, depth: f64) -> Vec<Case> {
-    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    let mut random = Random::new();
     (0..count).map(|_| case(&mut random, kind, depth)).collect()
 }
 
@@ -97,7 +109,7 @@ fn case(random: &mut Random, kind: Kind, depth: f64) -> Case {
     };
     let intensity = DVec3::ONE;
     let light = match kind {
-        Kind::Spot | Kind::WideSpot => {
+        Kind::Spot | Kind::WideSpot | Kind::MeasuredSpot => {
             let aim = direction * (foot + distance * random.within(-2.0, 2.0))
                 + random.direction() * distance * random.within(0.0, 0.5);
             let aimed = if random.next() < 0.2 { random.direction() } else { (aim - position).normalize() };
@@ -125,6 +137,19 @@ fn phase(random: &mut Random, kind: Kind) -> Phase {
             let g2 = rounded(random.within(-0.5, 0.5));
             Phase::DoubleHenyeyGreenstein { g1: g, g2, f: rounded(random.next()) }
         }
+        Kind::Droplets => Phase::Droplets { diameter: rounded(random.within(5.0, 50.0)) },
+        Kind::Measured | Kind::MeasuredSpot => fog(),
         Kind::HenyeyGreenstein | Kind::Spot | Kind::WideSpot => Phase::HenyeyGreenstein { g },
     }
+}
+
+/// The measured phase function that is shipped as an example.
+pub fn fog() -> Phase {
+    let text = include_str!("../../../../graphs/scenes/phase/fog_20um.phase.txt");
+    let row = |line: &str| {
+        let (angle, value) = line.split_once(' ').unwrap();
+        (angle.parse().unwrap(), value.parse().unwrap())
+    };
+    let rows: Vec<(f64, f64)> = text.lines().filter(|line| !line.starts_with('#')).map(row).collect();
+    Phase::Measured(PhaseTable::new(&rows).unwrap())
 }

@@ -1,8 +1,8 @@
-//! Runs the shared WGSL over a list of cases.
+//! Airlight of cases on the GPU.
 
-use tyndall_probe::Probe as Shader;
-use tyndall_scene::layout;
-use tyndall_shaders::scene::Light;
+use tyndall_probe::Probe;
+use tyndall_scene::{layout, phase_table};
+use tyndall_shaders::scene::{Light, Phase};
 
 use crate::cases::Case;
 
@@ -44,31 +44,36 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 }
 ";
 
-/// The shader on a device.
-pub struct Probe(Shader);
+/// Airlight of each case, W/(sr m²). Of measured phase functions all cases have the same.
+pub fn airlight(cases: &[Case], nodes: u32) -> Vec<[f32; 3]> {
+    let table = phase_table(&cases[0].medium.phase);
+    let probe = Probe::new(SHADER, &[], &[("nodes", f64::from(nodes)), ("phase_table_count", count(&table))]);
+    let bytes: Vec<u8> = cases.iter().flat_map(bytes).collect();
+    let results = probe.run_with(&bytes, cases.len(), &[("phase_table", &table)]);
+    results.into_iter().map(|[r, g, b, _]| [r, g, b]).collect()
+}
 
-impl Probe {
-    pub fn new(nodes: u32) -> Self {
-        Self(Shader::new(SHADER, &[], &[("nodes", f64::from(nodes))]))
-    }
-
-    /// Airlight of each case, W/(sr m²).
-    pub fn run(&self, cases: &[Case]) -> Vec<[f32; 3]> {
-        let bytes: Vec<u8> = cases.iter().flat_map(bytes).collect();
-        self.0.run(&bytes, cases.len()).into_iter().map(|[r, g, b, _]| [r, g, b]).collect()
-    }
+/// The element count at the front of a list of the scene.
+pub fn count(list: &[u8]) -> f64 {
+    f64::from(u32::from_le_bytes(*list.first_chunk().unwrap()))
 }
 
 fn bytes(case: &Case) -> Vec<u8> {
     let ray = [case.ray.origin.as_vec3().extend(case.way as f32), case.ray.direction.as_vec3().extend(0.0)];
     let mut bytes = bytemuck::bytes_of(&light(&case.light)).to_vec();
     bytes.extend_from_slice(bytemuck::bytes_of(&layout::Medium::from(&case.medium)));
-    bytes.extend_from_slice(bytemuck::bytes_of(&layout::Phase::from(&case.medium.phase)));
+    bytes.extend_from_slice(&phase(&case.medium.phase));
     bytes.extend_from_slice(bytemuck::cast_slice(&ray.map(|vector| vector.to_array())));
     bytes
 }
 
-fn light(light: &Light) -> layout::Light {
+/// A phase function as shaders read it, without its table.
+pub fn phase(phase: &Phase) -> Vec<u8> {
+    bytemuck::bytes_of(&layout::Phase::from(phase)).to_vec()
+}
+
+/// A light as shaders read it.
+pub fn light(light: &Light) -> layout::Light {
     let floats = |vector: glam::DVec3| vector.as_vec3().to_array();
     match *light {
         Light::Point { position, intensity, radius } => layout::Light {

@@ -1,0 +1,190 @@
+//! Ports as pictures for the eye: what came out, what was expected, where they differ.
+
+use std::path::Path;
+
+use tyndall_graph::descriptor::Class;
+use tyndall_image::{Image, Meaning, srgb_from_linear};
+
+use crate::outcome::{Outcome, PortOutcome};
+use crate::picture::Picture;
+
+/// Multiples of the tolerance at which failing pixels are shown.
+pub(super) const MULTIPLES: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
+
+/// What is shown of a port.
+pub(super) struct Shown {
+    /// There is a picture of what came out.
+    pub actual: bool,
+    /// There is one of what was expected, and of the difference.
+    pub compared: bool,
+    /// Pixels beyond each multiple of the tolerance.
+    pub failing: [usize; 4],
+    /// Pixels in all.
+    pub pixels: usize,
+    /// How many numbers of what came out, and of what was expected, lie in each of equal ranges.
+    pub histograms: [Vec<usize>; 2],
+    /// From where to where the ranges go.
+    pub range: (f32, f32),
+}
+
+/// Writes the pictures of all ports of a test; what is shown of each, in the order of the outcome's ports.
+pub(super) fn write(folder: &Path, outcome: &Outcome) -> Result<Vec<Shown>, String> {
+    outcome.ports.iter().map(|port| of_port(folder, port)).collect()
+}
+
+fn of_port(folder: &Path, port: &PortOutcome) -> Result<Shown, String> {
+    let mut shown = Shown {
+        actual: false,
+        compared: false,
+        failing: [0; 4],
+        pixels: 0,
+        histograms: [Vec::new(), Vec::new()],
+        range: (0.0, 0.0),
+    };
+    let Some(actual) = &port.actual else { return Ok(shown) };
+    let save = |name: &str, image: Image| {
+        let path = folder.join(format!("{}.{}.{name}.png", port.name, port.frame));
+        tyndall_image::write(&path, &image, Meaning::Display).map_err(|error| error.to_string())
+    };
+    let exposure = Exposure::of(port.expected.as_ref().unwrap_or(actual));
+    save("actual", exposure.shown(actual))?;
+    shown.actual = true;
+    shown.range = exposure.range;
+    shown.histograms[0] = histogram(actual, exposure.range);
+    let same_size = |expected: &&Picture| expected.image.data.len() == actual.image.data.len();
+    if let (Some(expected), Some(metric)) = (port.expected.as_ref().filter(same_size), port.metric) {
+        let scale = metric.scale(expected);
+        let excess = excess(actual, expected, scale);
+        let (width, height) = flat(&actual.image);
+        save("expected", exposure.shown(expected))?;
+        save("difference", Image::new(width, height, 3, excess.iter().flat_map(|excess| heat(*excess)).collect()))?;
+        for (index, multiple) in MULTIPLES.into_iter().enumerate() {
+            shown.failing[index] = excess.iter().filter(|excess| **excess > multiple).count();
+        }
+        let level = |excess: &f64| MULTIPLES.iter().filter(|multiple| excess > multiple).count();
+        save("failing", Image::new(width, height, 3, excess.iter().flat_map(|excess| step(level(excess))).collect()))?;
+        shown.pixels = excess.len();
+        shown.histograms[1] = histogram(expected, exposure.range);
+        shown.compared = true;
+    }
+    Ok(shown)
+}
+
+/// Layers below one another.
+fn flat(image: &Image) -> (u32, u32) {
+    (image.width, image.height * image.layers)
+}
+
+/// How numbers become grey or colour; the same for what came out and for what was expected.
+struct Exposure {
+    class: Class,
+    range: (f32, f32),
+}
+
+impl Exposure {
+    /// So that 99 of 100 numbers are within.
+    fn of(picture: &Picture) -> Self {
+        let compared = picture.compared();
+        let mut finite: Vec<f32> = compared.data.into_iter().filter(|value| value.is_finite()).collect();
+        finite.sort_by(f32::total_cmp);
+        let at = |part: f32| finite.get((part * (finite.len().max(1) - 1) as f32) as usize).copied().unwrap_or(0.0);
+        let range = match picture.class {
+            Class::Display => (0.0, 1.0),
+            Class::Vector => (-1.0, 1.0),
+            Class::Color => (0.0, at(0.99)),
+            _ => (at(0.01).min(0.0), at(0.99)),
+        };
+        Self { class: picture.class, range: (range.0, range.1.max(range.0 + f32::MIN_POSITIVE)) }
+    }
+
+    fn shown(&self, picture: &Picture) -> Image {
+        let compared = picture.compared();
+        let (low, high) = self.range;
+        let code = |value: f32| {
+            let part = ((value - low) / (high - low)).clamp(0.0, 1.0);
+            if matches!(self.class, Class::Display | Class::Vector) { part } else { srgb_from_linear(part) }
+        };
+        let channels = compared.channels as usize;
+        let texel = |texel: &[f32]| match *texel {
+            [y] => [code(y); 3],
+            [x, y] => [code(x), code(y), 0.0],
+            [r, g, b, ..] => [code(r), code(g), code(b)],
+            [] => [0.0; 3],
+        };
+        let (width, height) = flat(&compared);
+        let nan_is_seen =
+            |texel: [f32; 3]| if texel.iter().any(|value| value.is_nan()) { [1.0, 0.0, 1.0] } else { texel };
+        let data = compared.data.chunks_exact(channels).flat_map(|numbers| nan_is_seen(texel(numbers))).collect();
+        Image::new(width, height, 3, data)
+    }
+}
+
+/// The largest difference of each pixel, over the tolerance.
+fn excess(actual: &Picture, expected: &Picture, scale: f64) -> Vec<f64> {
+    let (actual, expected) = (actual.compared(), expected.compared());
+    let channels = actual.channels.max(1) as usize;
+    let difference = |(a, b): (&f32, &f32)| {
+        let difference = (f64::from(*a) - f64::from(*b)).abs();
+        if a.to_bits() == b.to_bits() || a == b {
+            0.0
+        } else if difference.is_nan() {
+            f64::INFINITY
+        } else {
+            difference / scale
+        }
+    };
+    let pixels = actual.data.chunks_exact(channels).zip(expected.data.chunks_exact(channels));
+    pixels.map(|(a, b)| a.iter().zip(b).map(difference).fold(0.0, f64::max)).collect()
+}
+
+/// Black where nothing differs, blue below the tolerance, yellow at ten times it and white beyond.
+fn heat(excess: f64) -> [f32; 3] {
+    // Of a hundredth of the tolerance to a hundred times it.
+    let part = ((excess.max(1e-2).log10() + 2.0) / 4.0).clamp(0.0, 1.0) as f32;
+    let channel = |from: f32, to: f32| ((part - from) / (to - from)).clamp(0.0, 1.0);
+    [
+        channel(0.4, 0.7),
+        channel(0.5, 1.0),
+        if part < 0.5 { channel(0.0, 0.4) } else { channel(0.9, 1.0).max(1.0 - channel(0.5, 0.7)) },
+    ]
+}
+
+/// Grey levels of failing pixels: one for each multiple of the tolerance that is passed.
+fn step(level: usize) -> [f32; 3] {
+    [[0.08, 0.08, 0.10], [0.25, 0.35, 0.60], [0.85, 0.65, 0.15], [0.95, 0.35, 0.15], [1.0, 0.85, 0.85]][level.min(4)]
+}
+
+/// Numbers in 32 equal ranges; those outside count in the outermost, those that are not finite nowhere.
+fn histogram(picture: &Picture, (low, high): (f32, f32)) -> Vec<usize> {
+    let mut counts = vec![0; 32];
+    for value in picture.compared().data.iter().filter(|value| value.is_finite()) {
+        let part = ((value - low) / (high - low)).clamp(0.0, 1.0);
+        counts[((part * 32.0) as usize).min(31)] += 1;
+    }
+    counts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture(value: f32) -> Picture {
+        Picture::new(Image::filled(4, 4, &[value, 0.5, 0.25, 1.0]), Class::Color)
+    }
+
+    #[test]
+    fn excess_counts_in_tolerances_and_nan_is_beyond_all() {
+        assert!(excess(&picture(0.5), &picture(0.5), 0.1).iter().all(|excess| *excess == 0.0));
+        let found = excess(&picture(0.5), &picture(0.25), 0.125);
+        assert!(found.len() == 16 && found.iter().all(|excess| (excess - 2.0).abs() < 1e-9));
+        assert!(excess(&picture(f32::NAN), &picture(0.25), 0.1).iter().all(|excess| excess.is_infinite()));
+    }
+
+    #[test]
+    fn histograms_count_every_finite_number() {
+        let counts = histogram(&picture(0.5), (0.0, 1.0));
+        assert_eq!(counts.iter().sum::<usize>(), 4 * 4 * 3);
+        assert_eq!((counts[16], counts[8]), (32, 16));
+        assert_eq!(histogram(&picture(f32::NAN), (0.0, 1.0)).iter().sum::<usize>(), 4 * 4 * 2);
+    }
+}
