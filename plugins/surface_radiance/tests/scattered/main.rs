@@ -209,9 +209,10 @@ fn limits() {
 fn a_sun_in_isotropic_haze_lights_all_sides_alike() {
     let desk = Desk::new(&SHININESSES);
     let pictures = desk.draw(&lights(), &materials(), &format!("{}, phase: Isotropic", medium()));
-    for j in 0..ANGLES {
-        for channel in 0..3 {
-            let value = pictures[0][LIGHTS - 1][j][channel];
+    let of_sun = &pictures[0][LIGHTS - 1];
+    assert_eq!(of_sun.len(), ANGLES);
+    for colour in of_sun {
+        for (channel, value) in colour.iter().enumerate() {
             assert!((value / (ALBEDO[channel] * phase(&Phase::Isotropic, 0.5)) - 1.0).abs() < 5e-4, "{value}");
         }
     }
