@@ -6,7 +6,7 @@
 //!
 //! | step | where |
 //! | --- | --- |
-//! | text to [`TestFile`], every mistake collected | [`file`] |
+//! | text to [`TestFile`], every mistake collected | [`mod@file`] |
 //! | rendering, results shared between tests | [`Session`] |
 //! | figures: [`Metric`], properties, relations | `metric`, `property`, `relation` |
 //! | whose fault it is: [`Outcome`] | `judge` |

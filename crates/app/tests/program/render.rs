@@ -175,10 +175,18 @@ fn without_a_medium_the_background_is_seen() {
 #[test]
 fn switches_switch() {
     let desk = Desk::new();
-    let arguments =
-        ["render", "fog.graph.ron", "--size", "16x12", "--output", "surface=a.exr", "--set", "direct=false"];
-    desk.ends(0, &arguments);
-    assert!(image(&desk, "a.exr").first_channels(3).data.iter().all(|value| *value == 0.0));
+    let surface = |direct: bool, scattered: bool| {
+        let (direct, scattered) = (format!("direct={direct}"), format!("scattered={scattered}"));
+        let arguments = ["render", "fog.graph.ron", "--size", "16x12", "--output", "surface=a.exr"];
+        desk.ends(0, &[&arguments[..], &["--set", &direct, "--set", &scattered]].concat());
+        image(&desk, "a.exr").first_channels(3).data
+    };
+    let (direct, scattered) = (surface(true, false), surface(false, true));
+    assert!(surface(false, false).iter().all(|value| *value == 0.0));
+    assert!(direct.iter().any(|value| *value > 0.0) && scattered.iter().any(|value| *value > 0.0));
+    for ((direct, scattered), both) in direct.iter().zip(&scattered).zip(surface(true, true)) {
+        assert!((direct + scattered - both).abs() <= 1e-5 * both, "{direct} + {scattered} is not {both}");
+    }
 }
 
 #[test]
