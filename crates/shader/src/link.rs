@@ -57,7 +57,7 @@ pub struct Linked {
     pub unused: Vec<Unused>,
     /// Of the linked text; the same in every process of one build of the program.
     pub fingerprint: u64,
-    map: Map,
+    pub(crate) map: Map,
 }
 
 /// Something that the root declares and no entry point uses.

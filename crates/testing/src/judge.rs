@@ -8,6 +8,7 @@ use tyndall_image::Image;
 use tyndall_plugin::ReferenceInput;
 
 use crate::adapter::AdapterClass;
+use crate::answers::Answers;
 use crate::file::{MOST_TEXELS, Property, Tapped};
 use crate::golden;
 use crate::metric::Judgement;
@@ -23,6 +24,7 @@ pub(crate) struct Judge<'a> {
     pub ready: &'a Ready,
     pub options: &'a Options,
     pub adapter: AdapterClass,
+    pub answers: &'a Answers,
 }
 
 impl Judge<'_> {
@@ -142,9 +144,10 @@ impl Judge<'_> {
             params: params.map(|(param, setting)| (param.name.as_str(), value(setting))).collect(),
             scene: scene.as_ref(),
         };
-        let mut outputs: BTreeMap<&str, Vec<f32>> = reference(&input)?;
+        let answer = self.answers.of(&descriptor.name, reference, &input);
+        let outputs = answer.as_ref().as_ref().map_err(String::clone)?;
         let port = &graph_port(self.ready, tapped).name;
-        let data = outputs.remove(port.as_str()).ok_or_else(|| format!("the reference says nothing of `{port}`"))?;
+        let data = outputs.get(port.as_str()).ok_or_else(|| format!("the reference says nothing of `{port}`"))?.clone();
         if data.len() != actual.image.data.len() {
             return Err(format!(
                 "the reference gives {} numbers, and the port holds {}",

@@ -16,7 +16,7 @@ use crate::golden::{self, Records};
 use crate::judge::{Judge, attribute};
 use crate::metric::Judgement;
 use crate::options::Options;
-use crate::outcome::{Outcome, PassOutcome, Problem, RelationOutcome, State};
+use crate::outcome::{Outcome, PassOutcome, PortOutcome, Problem, RelationOutcome, State};
 use crate::picture::Picture;
 use crate::session::{Rendered, Session, Variation};
 use crate::{bless, isolate, relation, robust};
@@ -60,9 +60,11 @@ impl Session {
         } else {
             let rendered =
                 self.render(&ready.loaded, &ready.registry, &ready.ports(), &ready.file.frames, Variation::PLAIN)?;
-            let judge = Judge { ready: &ready, options, adapter: AdapterClass::of(self.gpu()) };
+            let adapter = AdapterClass::of(self.gpu());
+            let judge = Judge { ready: &ready, options, adapter, answers: &self.answers };
             outcome.ports = rendered.iter().flat_map(|frame| judge.frame(frame)).collect();
-            if options.size.is_none() {
+            let decided = options.until_failure && !outcome.ports.iter().all(PortOutcome::passed);
+            if options.size.is_none() && !decided {
                 outcome.relations = self.relations(&ready, &rendered, options)?;
             }
             attribute(&ready.plan, outcome);
@@ -121,6 +123,10 @@ impl Session {
         let graph = &ready.loaded.graph;
         let wanted = |name: &str| options.tap.as_ref().is_none_or(|pattern| matches(pattern, name));
         for relation in &ready.file.relations {
+            let failed = |relation: &RelationOutcome| !relation.judgement.passed;
+            if options.until_failure && outcomes.iter().any(failed) {
+                break;
+            }
             let expect: Vec<_> = relation.expect.iter().filter(|expectation| wanted(&expectation.port)).collect();
             let ports: Vec<PortRef> = expect.iter().filter_map(|expectation| find(graph, &expectation.port)).collect();
             let mut runs = Vec::new();
