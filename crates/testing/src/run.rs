@@ -11,9 +11,9 @@ use tyndall_plugin::Registry;
 use tyndall_render::{Error, Loaded, load};
 
 use crate::adapter::AdapterClass;
-use crate::file::{Tapped, TestFile, check, matches, read};
+use crate::file::{Change, Tapped, TestFile, check, matches, read};
 use crate::golden::{self, Records};
-use crate::judge::{Judge, attribute};
+use crate::judge::{Computing, Judge, attribute};
 use crate::metric::Judgement;
 use crate::options::Options;
 use crate::outcome::{Outcome, PassOutcome, PortOutcome, Problem, RelationOutcome, State};
@@ -29,6 +29,13 @@ pub(crate) struct Ready {
     pub plan: Plan,
     pub tapped: Vec<Tapped>,
     pub records: Records,
+}
+
+/// Another run of a relation.
+struct Run {
+    loaded: Loaded,
+    plan: Plan,
+    rendered: Vec<Rendered>,
 }
 
 impl Session {
@@ -129,6 +136,9 @@ impl Session {
             }
             let expect: Vec<_> = relation.expect.iter().filter(|expectation| wanted(&expectation.port)).collect();
             let ports: Vec<PortRef> = expect.iter().filter_map(|expectation| find(graph, &expectation.port)).collect();
+            let asking = expect.iter().zip(&ports).filter(|(each, _)| matches!(each.change, Change::CpuReference(_)));
+            let inputs = asking.flat_map(|(_, port)| ready.inputs(port.pass)).map(|(_, port)| port);
+            let rendering: Vec<PortRef> = ports.iter().copied().chain(inputs).collect();
             let mut runs = Vec::new();
             for settings in &relation.runs {
                 let mut request = ready.file.request.clone();
@@ -136,14 +146,25 @@ impl Session {
                 let mut out = Diagnostics::default();
                 let loaded = load(&request, &ready.registry, &mut out).filter(|_| !out.has_errors());
                 let Some(loaded) = loaded else { return Err(out.into()) };
-                runs.push(self.render(&loaded, &ready.registry, &ports, &ready.file.frames, Variation::PLAIN)?);
+                let plan = Self::plan(&loaded.graph, Roots::Ports(rendering.clone()), Variation::PLAIN)?;
+                let frames = &ready.file.frames;
+                let rendered = self.render(&loaded, &ready.registry, &rendering, frames, Variation::PLAIN)?;
+                runs.push(Run { loaded, plan, rendered });
             }
             for (expectation, port) in expect.iter().zip(&ports) {
                 for (frame, own) in own.iter().enumerate() {
                     let others: Option<Vec<Picture>> =
-                        runs.iter().map(|run| run.get(frame)?.picture(&ready.plan, *port)).collect();
+                        runs.iter().map(|run| run.rendered.get(frame)?.picture(&ready.plan, *port)).collect();
                     let judgement = match (own.picture(&ready.plan, *port), others) {
-                        (Some(own), Some(others)) => relation::judge(expectation.change, &own, &others),
+                        (Some(own), Some(others)) => {
+                            let computed = |run: usize| {
+                                let Run { loaded, plan, rendered } = &runs[run];
+                                let registry = &ready.registry;
+                                let computing = Computing { plan, registry, loaded, answers: &self.answers };
+                                computing.port(*port, &others[run], &rendered[frame])
+                            };
+                            relation::judge(expectation.change, &own, &others, &computed)
+                        }
                         _ => Judgement::failed("it was not rendered in every run".to_owned()),
                     };
                     outcomes.push(RelationOutcome {
@@ -175,15 +196,20 @@ impl Ready {
 
     /// What feeds a pass of the graph: index of the input, and the port.
     pub fn inputs(&self, pass: u32) -> Vec<(usize, PortRef)> {
-        let Some(position) = self.plan.position(pass) else { return Vec::new() };
-        let sources = self.plan.sources(position).iter().enumerate();
-        sources.filter_map(|(index, source)| Some((index, self.plan.ports[(*source)? as usize].port))).collect()
+        inputs_of(&self.plan, pass)
     }
 
     /// The name of a golden.
     pub fn key(&self, port: &str, frame: u32) -> String {
         golden::key(port, frame, self.file.frames.len() > 1)
     }
+}
+
+/// What feeds a pass of a plan: index of the input, and the port.
+pub(crate) fn inputs_of(plan: &Plan, pass: u32) -> Vec<(usize, PortRef)> {
+    let Some(position) = plan.position(pass) else { return Vec::new() };
+    let sources = plan.sources(position).iter().enumerate();
+    sources.filter_map(|(index, source)| Some((index, plan.ports[(*source)? as usize].port))).collect()
 }
 
 impl Tapped {

@@ -42,6 +42,10 @@ impl Wording<'_> {
     }
 
     fn operand(&self, handle: Handle<Expression>) -> String {
+        // A name stands for what it was given.
+        if let Some(name) = self.function.named_expressions.get(&handle) {
+            return name.clone();
+        }
         cut(&self.text(self.function.expressions.get_span(handle)).unwrap_or_else(|| "…".to_owned()))
     }
 

@@ -56,7 +56,8 @@ fn scattered(scene: &Scene, light: &Light, surface: &Surface, table: &PortData) 
         }
         _ => DVec3::ONE,
     };
-    let scattering = if is_sun { medium.albedo } else { medium.scattering() * arriving.way };
+    let lit = DVec3::from_array(medium.extinction.to_array().map(|sigma| f64::from(sigma > 0.0)));
+    let scattering = if is_sun { medium.albedo * lit } else { medium.scattering() * arriving.way };
     let reflected = rgb(&surface.diffuse) / PI * lambert + rgb(&surface.phong) * phong;
     let left = (-medium.extinction * arriving.way).exp();
     scattering * reflected * all_around * on_axis * left
