@@ -291,7 +291,9 @@ impl Session {
 
     /// Holds what was rendered against what the pass's own shader made of it before.
     fn compare(&mut self, loaded: &Loaded, plan: &Plan, rendered: &Rendered) {
-        let Some(original) = self.substitute.as_ref().and_then(|substitute| substitute.original.clone()) else { return };
+        let Some(original) = self.substitute.as_ref().and_then(|substitute| substitute.original.clone()) else {
+            return;
+        };
         let prints = self.prints(loaded, &original, plan, rendered.frame);
         let differs = |(port, data): (&PortRef, &Arc<PortData>)| {
             let planned = &plan.ports[plan.planned(*port)? as usize];

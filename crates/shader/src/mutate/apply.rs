@@ -1,8 +1,8 @@
 //! A mistake made, and loops that end.
 
 use naga::{
-    AddressSpace, Arena, BinaryOperator, Block, Expression, GlobalVariable, Handle, Literal, MathFunction, MemoryDecorations,
-    Module, Scalar, Span, Statement, Type, TypeInner,
+    AddressSpace, Arena, BinaryOperator, Block, Expression, GlobalVariable, Handle, Literal, MathFunction,
+    MemoryDecorations, Module, Scalar, Span, Statement, Type, TypeInner,
 };
 
 use super::{Edit, Mutation, Target};
@@ -109,7 +109,9 @@ fn bound(block: &mut Block, expressions: &mut Arena<Expression>, left: Handle<Gl
                 bound(accept, expressions, left);
                 bound(reject, expressions, left);
             }
-            Statement::Switch { cases, .. } => cases.iter_mut().for_each(|case| bound(&mut case.body, expressions, left)),
+            Statement::Switch { cases, .. } => {
+                cases.iter_mut().for_each(|case| bound(&mut case.body, expressions, left))
+            }
             Statement::Loop { body, continuing, break_if } => {
                 bound(body, expressions, left);
                 let none_left = count_down(continuing, expressions, left, *break_if);

@@ -243,9 +243,7 @@ impl Sites<'_> {
             Expression::Math { arg, arg1, .. } => [Some(*arg), *arg1].into_iter().flatten().collect(),
             _ => Vec::new(),
         };
-        let is_float = |inner: &TypeInner| {
-            matches!(inner, TypeInner::Scalar(scalar) | TypeInner::Vector { scalar, .. } if scalar.kind == ScalarKind::Float)
-        };
+        let is_float = |inner: &TypeInner| matches!(inner, TypeInner::Scalar(scalar) | TypeInner::Vector { scalar, .. } if scalar.kind == ScalarKind::Float);
         operands.into_iter().find(|operand| self.same_type(*operand, whole) && is_float(self.type_of(whole)))
     }
 
@@ -259,8 +257,7 @@ impl Sites<'_> {
 
     /// Values of one type that are not the same.
     fn swappable(&self, a: Handle<Expression>, b: Handle<Expression>) -> bool {
-        let is_value =
-            self.type_of(a).scalar_kind().is_some_and(|kind| kind != ScalarKind::Bool) || self.is_texture(a);
+        let is_value = self.type_of(a).scalar_kind().is_some_and(|kind| kind != ScalarKind::Bool) || self.is_texture(a);
         self.same_type(a, b) && is_value && !self.alike(a, b)
     }
 

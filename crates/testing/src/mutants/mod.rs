@@ -23,7 +23,7 @@ use tyndall_plugin::{Origin, RegistryPass};
 use tyndall_render::Error;
 use tyndall_shader::{Linked, Mutation};
 
-pub use figures::{Figures, json, lines};
+pub use figures::{Figures, json, missed, table};
 pub use reasons::REASONS;
 
 use crate::options::Options;
@@ -140,7 +140,11 @@ impl From<Error> for Trouble {
 ///
 /// # Errors
 /// Tests that fail as they are; reasons for mutants that cannot be made.
-pub fn hunt(session: &mut Session, hunt: &Hunt, told: &mut dyn FnMut(&PassFindings)) -> Result<Vec<PassFindings>, Trouble> {
+pub fn hunt(
+    session: &mut Session,
+    hunt: &Hunt,
+    told: &mut dyn FnMut(&PassFindings),
+) -> Result<Vec<PassFindings>, Trouble> {
     let baseline = baseline(session, hunt)?;
     let mut reasons = Reasons::default();
     for folder in baseline.folders() {
@@ -229,8 +233,14 @@ fn of_pass(session: &mut Session, hunt: &Hunt, pass: &RegistryPass, tests: &[&Pa
             shader.mutations().into_iter().map(move |mutation| (file.to_owned(), shader.clone(), mutation))
         })
         .collect();
-    let mut findings =
-        PassFindings { pass: name.clone(), tests: tests.len(), sites: sites.len(), invalid: 0, mutants: Vec::new(), took: start.elapsed() };
+    let mut findings = PassFindings {
+        pass: name.clone(),
+        tests: tests.len(),
+        sites: sites.len(),
+        invalid: 0,
+        mutants: Vec::new(),
+        took: start.elapsed(),
+    };
     let places = sites.iter().map(|(_, _, mutation)| (mutation.function.as_str(), mutation.kind)).collect();
     let mut draw = Draw::new(places, &name, hunt.seed);
     let mut trials = Trials { session, pass: &name, fingerprint: pass.fingerprint, tests, goldens: hunt.goldens };

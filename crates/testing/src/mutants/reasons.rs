@@ -59,7 +59,11 @@ impl Reasons {
     /// One for each of them.
     pub fn refuse_unknown(&self, can_be_made: &dyn Fn(&str, &str, &str) -> bool) -> Result<(), Diagnostics> {
         let unknown = self.0.iter().filter(|reason| !can_be_made(&reason.pass, &reason.function, &reason.change));
-        refuse(unknown, "no such mutant can be made", "delete it, or copy `function` and `change` from the report again")
+        refuse(
+            unknown,
+            "no such mutant can be made",
+            "delete it, or copy `function` and `change` from the report again",
+        )
     }
 
     /// Refuses reasons for what is killed.
@@ -71,11 +75,7 @@ impl Reasons {
     }
 }
 
-fn refuse<'a>(
-    reasons: impl Iterator<Item = &'a Reason>,
-    what: &str,
-    suggestion: &str,
-) -> Result<(), Diagnostics> {
+fn refuse<'a>(reasons: impl Iterator<Item = &'a Reason>, what: &str, suggestion: &str) -> Result<(), Diagnostics> {
     let mistake = |reason: &Reason| {
         let message = format!("{what}: `{}` in `{}` of `{}`", reason.change, reason.function, reason.pass);
         Diagnostic::error(STALE_REASON, reason.place.clone(), message).suggest(suggestion)

@@ -18,7 +18,10 @@ const ITERATIONS: [u32; 4] = [1 << 10, 1 << 14, 1 << 18, 1 << 22];
 pub(super) enum Trial {
     /// No compiler or driver takes it.
     Invalid,
-    Judged { without_goldens: Verdict, verdict: Verdict },
+    Judged {
+        without_goldens: Verdict,
+        verdict: Verdict,
+    },
 }
 
 /// Shows mutants of one pass to the tests that run it.
@@ -35,7 +38,10 @@ pub(super) struct Trials<'a> {
 enum Answer {
     Verdict(Verdict),
     /// Nothing; and what came nearest to a failure.
-    Unnoticed { excess: f64, check: String },
+    Unnoticed {
+        excess: f64,
+        check: String,
+    },
     Invalid,
 }
 
@@ -110,7 +116,11 @@ impl Trials<'_> {
             if !named.is_empty() {
                 let test = outcome.name();
                 let right = named.iter().all(|kind| kind == self.pass);
-                return Answer::Verdict(if right { Verdict::Killed { test } } else { Verdict::Misnamed { test, named } });
+                return Answer::Verdict(if right {
+                    Verdict::Killed { test }
+                } else {
+                    Verdict::Misnamed { test, named }
+                });
             }
             for (excess, check) in self.excesses(&outcome) {
                 if excess.is_finite() && excess > nearest.0 {

@@ -43,9 +43,8 @@ fn scattered(scene: &Scene, light: &Light, surface: &Surface, table: &PortData) 
             cell(table, layer, at, depth)
         }))
     };
-    let of_lobe = |n: f64, axis: DVec3, layer: u32| {
-        of(axis, layer, &AngleAxis::new(n, -1.0, table.width)) * 2.0 * PI / (n + 1.0)
-    };
+    let of_lobe =
+        |n: f64, axis: DVec3, layer: u32| of(axis, layer, &AngleAxis::new(n, -1.0, table.width)) * 2.0 * PI / (n + 1.0);
     let lambert = of_lobe(1.0, surface.normal, 0);
     let phong = of_lobe(surface.phong[3], surface.mirrored, surface.diffuse[3] as u32);
     let all_around = match *light {
