@@ -11,7 +11,7 @@ use tyndall_graph::{Catalogue, PictureSize};
 use tyndall_shader::{Library, check_all, link};
 
 use crate::codes::{BAD_DESCRIPTOR, DUPLICATE_PLUGIN, MISSING_SHADER};
-use crate::dispatch;
+use crate::dispatch::{self, Over};
 use crate::folder::{Folder, MANIFEST, Origin};
 use crate::limits::Limit;
 use crate::manifest::{self, Manifest, ManifestPass, Version};
@@ -48,7 +48,7 @@ pub struct RegistryPass {
 }
 
 enum Make {
-    Dispatch { file: String, over: String },
+    Dispatch { file: String, over: Over },
     Rust(Box<MakeProgram>),
 }
 
@@ -192,12 +192,12 @@ impl Builder<'_> {
             return;
         }
         let over = match &pass.over {
-            Some((port, span)) if descriptor.port(port).is_none() => {
+            Some((Over::Port(port), span)) if descriptor.port(port).is_none() => {
                 let message = format!("`dispatch` names `{port}`, which is no port of this pass");
                 self.out.push(Diagnostic::error(crate::codes::BAD_PORT, manifest.source.place(*span), message));
                 return;
             }
-            Some((port, _)) => Some(port.clone()),
+            Some((over, _)) => Some(over.clone()),
             None => dispatch::default_over(&descriptor),
         };
         let Some(over) = over else {
