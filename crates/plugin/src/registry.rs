@@ -1,9 +1,10 @@
 //! Every pass that a graph can use, linked and checked, and how to make each ready.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::hash::Hasher;
 use std::sync::Arc;
 
+use siphasher::sip::SipHasher13;
 use tyndall_document::{Diagnostic, Diagnostics, Place, near};
 use tyndall_gpu::{GpuError, Program, Programs, Setup};
 use tyndall_graph::descriptor::{PRESET, PassDescriptor};
@@ -285,8 +286,8 @@ impl Builder<'_> {
 }
 
 fn fingerprint(shaders: &Shaders) -> u64 {
-    let mut hasher = DefaultHasher::new();
+    let mut hasher = SipHasher13::new();
     let all: BTreeSet<u64> = shaders.0.values().map(|linked| linked.fingerprint).collect();
-    all.hash(&mut hasher);
+    all.iter().for_each(|fingerprint| hasher.write(&fingerprint.to_le_bytes()));
     hasher.finish()
 }

@@ -1,5 +1,6 @@
 //! What was rendered, held against everything that a test says, and whose fault it is where that does not hold.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use tyndall_graph::descriptor::ParamValue;
@@ -20,12 +21,21 @@ use crate::session::{Rendered, moment};
 
 /// Holds ports against what a test says of them.
 pub(crate) struct Judge<'a> {
-    pub ready: &'a Ready,
-    pub options: &'a Options,
-    pub adapter: AdapterClass,
+    ready: &'a Ready,
+    options: &'a Options,
+    adapter: AdapterClass,
+    /// What references on the CPU said of each pass in each frame: of all its ports at once.
+    computed: RefCell<BTreeMap<(u32, u32), Outputs>>,
 }
 
-impl Judge<'_> {
+/// The ports of a pass as its reference computes them.
+type Outputs = Result<BTreeMap<&'static str, Vec<f32>>, String>;
+
+impl<'a> Judge<'a> {
+    pub fn new(ready: &'a Ready, options: &'a Options, adapter: AdapterClass) -> Self {
+        Self { ready, options, adapter, computed: RefCell::default() }
+    }
+
     /// Every tapped port of a frame, in the order in which the passes run.
     pub fn frame(&self, rendered: &Rendered) -> Vec<PortOutcome> {
         self.ready.tapped.iter().map(|tapped| self.port(tapped, rendered)).collect()
@@ -109,24 +119,43 @@ impl Judge<'_> {
         Check { what: property::name(property), judgement, also_on }
     }
 
-    /// What the pass's reference on the CPU makes of the inputs that the pass was given.
+    /// A port as the pass's reference on the CPU has it.
     fn computed(&self, tapped: &Tapped, actual: &Picture, rendered: &Rendered) -> Result<Picture, String> {
+        let pass = tapped.port.pass;
+        let mut computed = self.computed.borrow_mut();
+        let outputs = computed.entry((pass, rendered.frame)).or_insert_with(|| self.outputs(pass, rendered));
+        let outputs = outputs.as_ref().map_err(String::clone)?;
+        let port = &self.ready.loaded.graph.port(tapped.port).name;
+        let data = outputs.get(port.as_str()).ok_or_else(|| format!("the reference says nothing of `{port}`"))?;
+        if data.len() != actual.image.data.len() {
+            return Err(format!(
+                "the reference gives {} numbers, and the port holds {}",
+                data.len(),
+                actual.image.data.len()
+            ));
+        }
+        Ok(actual.with(Image { data: data.clone(), ..actual.image }))
+    }
+
+    /// What the pass's reference on the CPU makes of the inputs that the pass was given.
+    fn outputs(&self, pass: u32, rendered: &Rendered) -> Outputs {
         let plan = &self.ready.plan;
-        let position = plan.position(tapped.port.pass).ok_or("the pass does not run")?;
+        let position = plan.position(pass).ok_or("the pass does not run")?;
         let descriptor = plan.descriptor(position);
         let registered = self.ready.registry.pass(&descriptor.name).and_then(|pass| pass.reference);
         let reference = registered.ok_or_else(|| format!("`{}` has no reference on the CPU", descriptor.name))?;
-        let ports = || descriptor.ports.iter().enumerate();
         let mut inputs = BTreeMap::new();
-        for (index, from) in self.ready.inputs(tapped.port.pass) {
+        for (index, from) in self.ready.inputs(pass) {
             let name = descriptor.ports[index].name.as_str();
             let data =
                 rendered.ports.get(&from).ok_or_else(|| format!("what is fed into `{name}` was not rendered"))?;
             inputs.insert(name, data.as_ref());
         }
-        let resources = ports().filter_map(|(index, port)| {
-            Some((port.name.as_str(), plan.slots[plan.bindings(position)[index]? as usize].resource))
-        });
+        let resources = descriptor
+            .ports
+            .iter()
+            .zip(plan.bindings(position))
+            .filter_map(|(port, slot)| Some((port.name.as_str(), plan.slots[(*slot)? as usize].resource)));
         let frame = rendered.frame;
         let value = |setting: &ParamSetting| match setting {
             ParamSetting::Value(value) => value.clone(),
@@ -135,29 +164,17 @@ impl Judge<'_> {
         };
         let params = descriptor.params.iter().zip(plan.params(position));
         let (time, aspect) = moment(plan, frame);
-        let scene = self.ready.loaded.scene.as_ref().map(|scene| scene.twin(time, aspect));
-        let input = ReferenceInput {
+        let scene = self.ready.loaded.scene.as_ref();
+        let reads_triangles = descriptor.scene.iter().any(|name| name == "triangles");
+        let surfaces = scene.filter(|_| reads_triangles).map(|scene| scene.surfaces(time));
+        reference(&ReferenceInput {
             inputs,
             resources: resources.collect(),
             params: params.map(|(param, setting)| (param.name.as_str(), value(setting))).collect(),
-            scene: scene.as_ref(),
-        };
-        let mut outputs: BTreeMap<&str, Vec<f32>> = reference(&input)?;
-        let port = &graph_port(self.ready, tapped).name;
-        let data = outputs.remove(port.as_str()).ok_or_else(|| format!("the reference says nothing of `{port}`"))?;
-        if data.len() != actual.image.data.len() {
-            return Err(format!(
-                "the reference gives {} numbers, and the port holds {}",
-                data.len(),
-                actual.image.data.len()
-            ));
-        }
-        Ok(Picture::new(Image { data, ..actual.image }, actual.class))
+            scene: scene.map(|scene| scene.twin(time, aspect)).as_ref(),
+            surfaces: surfaces.as_ref(),
+        })
     }
-}
-
-fn graph_port<'a>(ready: &'a Ready, tapped: &Tapped) -> &'a tyndall_graph::descriptor::PortDescriptor {
-    ready.loaded.graph.port(tapped.port)
 }
 
 impl Check {

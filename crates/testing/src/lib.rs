@@ -27,6 +27,7 @@
 mod adapter;
 mod bless;
 pub mod codes;
+mod digest;
 mod discover;
 pub mod file;
 mod fingerprint;

@@ -60,7 +60,7 @@ impl Session {
         } else {
             let rendered =
                 self.render(&ready.loaded, &ready.registry, &ready.ports(), &ready.file.frames, Variation::PLAIN)?;
-            let judge = Judge { ready: &ready, options, adapter: AdapterClass::of(self.gpu()) };
+            let judge = Judge::new(&ready, options, AdapterClass::of(self.gpu()));
             outcome.ports = rendered.iter().flat_map(|frame| judge.frame(frame)).collect();
             if options.size.is_none() {
                 outcome.relations = self.relations(&ready, &rendered, options)?;
