@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
+use super::GENERATOR;
 use super::pictures::{MULTIPLES, Shown};
-use super::slug;
 use crate::outcome::{Outcome, PassOutcome, PortOutcome, RelationOutcome, State};
 use crate::summary::escaped;
 
@@ -15,7 +15,7 @@ const GAP: usize = 46;
 fn whole(title: &str, body: &str) -> String {
     let title = escaped(title);
     format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n\
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n{GENERATOR}\n\
          <title>{title}</title>\n<link rel=\"icon\" href=\"data:,\">\n<link rel=\"stylesheet\" href=\"report.css\">\n<script src=\"report.js\" defer></script>\n</head>\n\
          <body>\n{body}</body>\n</html>\n"
     )
@@ -30,16 +30,16 @@ pub(super) fn index(adapter: &str, outcomes: &[Outcome]) -> String {
         outcomes.len() - failed,
         escaped(adapter)
     );
-    let mut rows: Vec<(usize, &Outcome)> = outcomes.iter().enumerate().collect();
-    rows.sort_by_key(|(_, outcome)| outcome.passed());
-    for (number, outcome) in rows {
+    let mut rows: Vec<&Outcome> = outcomes.iter().collect();
+    rows.sort_by_key(|outcome| outcome.passed());
+    for outcome in rows {
         let class = if outcome.passed() { "passed" } else { "failed" };
         let first = outcome.guilty().first().map_or("", |pass| pass);
         let first = if first.is_empty() && !outcome.passed() { "could not be judged" } else { first };
         let _ = writeln!(
             body,
             "<tr class=\"{class}\"><td><a href=\"{}.html\">{}</a><br><small>{}</small></td><td>{}</td><td>{}</td><td>{}</td><td>{:.0} ms</td></tr>",
-            slug(number, outcome),
+            outcome.page,
             escaped(&outcome.name()),
             escaped(&outcome.about),
             escaped(first),

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use tyndall_graph::descriptor::Class;
-use tyndall_image::{Image, Meaning, srgb_from_linear};
+use tyndall_image::{Error, Image, Meaning, NewFolder, encode_png, srgb_from_linear};
 
-use crate::outcome::{Outcome, PortOutcome};
+use crate::outcome::PortOutcome;
 use crate::picture::Picture;
 
 /// Multiples of the tolerance at which failing pixels are shown.
@@ -27,12 +27,8 @@ pub(super) struct Shown {
     pub range: (f32, f32),
 }
 
-/// Writes the pictures of all ports of a test; what is shown of each, in the order of the outcome's ports.
-pub(super) fn write(folder: &Path, outcome: &Outcome) -> Result<Vec<Shown>, String> {
-    outcome.ports.iter().map(|port| of_port(folder, port)).collect()
-}
-
-fn of_port(folder: &Path, port: &PortOutcome) -> Result<Shown, String> {
+/// Writes the pictures of a port into the folder `name` of a report, and gives what is shown of it.
+pub(super) fn write(report: &NewFolder, name: &str, port: &PortOutcome) -> Result<Shown, Error> {
     let mut shown = Shown {
         actual: false,
         compared: false,
@@ -42,12 +38,12 @@ fn of_port(folder: &Path, port: &PortOutcome) -> Result<Shown, String> {
         range: (0.0, 0.0),
     };
     let Some(actual) = &port.actual else { return Ok(shown) };
-    let save = |name: &str, image: Image| {
-        let path = folder.join(format!("{}.{}.{name}.png", port.name, port.frame));
-        tyndall_image::write(&path, &image, Meaning::Display).map_err(|error| error.to_string())
+    let save = |what: &str, image: &Image| {
+        let path = format!("{name}/{}.{}.{what}.png", port.name, port.frame);
+        report.write(&path, &encode_png(Path::new(&path), image, Meaning::Display)?)
     };
     let exposure = Exposure::of(port.expected.as_ref().unwrap_or(actual));
-    save("actual", exposure.shown(actual))?;
+    save("actual", &exposure.shown(actual))?;
     shown.actual = true;
     shown.range = exposure.range;
     shown.histograms[0] = histogram(actual, exposure.range);
@@ -56,13 +52,13 @@ fn of_port(folder: &Path, port: &PortOutcome) -> Result<Shown, String> {
         let scale = metric.scale(expected);
         let excess = excess(actual, expected, scale);
         let (width, height) = flat(&actual.image);
-        save("expected", exposure.shown(expected))?;
-        save("difference", Image::new(width, height, 3, excess.iter().flat_map(|excess| heat(*excess)).collect()))?;
+        save("expected", &exposure.shown(expected))?;
+        save("difference", &Image::new(width, height, 3, excess.iter().flat_map(|excess| heat(*excess)).collect()))?;
         for (index, multiple) in MULTIPLES.into_iter().enumerate() {
             shown.failing[index] = excess.iter().filter(|excess| **excess > multiple).count();
         }
         let level = |excess: &f64| MULTIPLES.iter().filter(|multiple| excess > multiple).count();
-        save("failing", Image::new(width, height, 3, excess.iter().flat_map(|excess| step(level(excess))).collect()))?;
+        save("failing", &Image::new(width, height, 3, excess.iter().flat_map(|excess| step(level(excess))).collect()))?;
         shown.pixels = excess.len();
         shown.histograms[1] = histogram(expected, exposure.range);
         shown.compared = true;
