@@ -49,8 +49,8 @@ impl Report {
         for port in &outcome.ports {
             shown.push(pictures::write(&self.folder, &name, port)?);
         }
-        outcome.drop_pictures();
         self.folder.write(&format!("{name}.html"), page::test(outcome, &name, &shown).as_bytes())?;
+        outcome.drop_pictures();
         outcome.page = name;
         Ok(())
     }

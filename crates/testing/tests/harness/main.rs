@@ -8,3 +8,4 @@ mod chain;
 mod goldens;
 mod report;
 mod robustness;
+mod unordered;

@@ -53,11 +53,12 @@ fn the_report_opens_in_a_browser_and_its_slider_moves() {
     let cells = browser.evaluate("[...document.querySelector('tbody tr').cells].map(c => c.innerText)");
     assert!(cells[0].as_str().unwrap().contains("shifted by three pixels"), "{cells}");
     assert_eq!((&cells[1], &cells[2]), (&json!("three"), &json!("four, five")));
-    for scheme in ["light", "dark"] {
+    for (scheme, width) in [("light", 1280), ("dark", 1280), ("dark", 420), ("light", 420)] {
         browser.prefer(scheme);
-        browser.photograph(&out(&format!("index-{scheme}.png")));
+        browser.width(width);
+        browser.photograph(&out(&format!("index-{scheme}-{width}.png")));
     }
-    browser.prefer("light");
+    browser.width(1280);
 
     // Through the keyboard to the page of the failed test.
     browser.press("Tab");
@@ -72,12 +73,19 @@ fn the_report_opens_in_a_browser_and_its_slider_moves() {
     let inherited = browser.evaluate("document.querySelectorAll('.card.inherited').length");
     assert_eq!(inherited, json!(2));
 
+    let thumbnails = browser.evaluate("document.querySelectorAll('.card img').length");
+    assert_eq!(thumbnails, json!(7));
+
     slider(&mut browser);
     keyboard(&mut browser);
     theme(&mut browser);
 
     for width in [1280, 420] {
         browser.width(width);
+        // The guilty pass is in view, however narrow the window.
+        browser.loads(|browser| drop(browser.call("Page.reload", json!({}))));
+        let [left, _, card, _] = browser.place(".card.diverged");
+        assert!(left >= 0.0 && left + card <= f64::from(width), "{left} {card} in {width}");
         let overflow = browser.evaluate("document.documentElement.scrollWidth - innerWidth");
         assert!(overflow.as_f64().unwrap() <= 0.0, "the page is {overflow} pixels wider than a window of {width}");
         for scheme in ["light", "dark"] {
@@ -109,6 +117,12 @@ fn slider(browser: &mut Browser) {
     assert_eq!((seen_at(browser, 0.1), seen_at(browser, 0.4)), (json!("expected"), json!("actual")));
     browser.drag(at(0.2), at(0.9));
     assert_eq!((seen_at(browser, 0.6), seen_at(browser, 0.8)), (json!("expected"), json!("expected")));
+    // On the pictures themselves, too.
+    let [left, top, width, height] = browser.place(".compare");
+    let on_picture = |part: f64| (left + part * width, top + height / 2.0);
+    browser.drag(on_picture(0.9), on_picture(0.3));
+    assert_eq!((seen_at(browser, 0.2), seen_at(browser, 0.4)), (json!("expected"), json!("actual")));
+    browser.evaluate("document.querySelector('figure input[type=range]').focus()");
     let value = |browser: &mut Browser| {
         browser.evaluate("Number(document.querySelector('figure input[type=range]').value)").as_f64().unwrap()
     };
