@@ -32,8 +32,11 @@ fn sound_graphs_pass_in_both_forms() {
 fn scenes_and_comparisons_are_checked_for_what_they_are() {
     let desk = Desk::new();
     desk.put("s.scene.ron", "(camera: (position: (0, 1, 5), look_at: (0, 1, 0)), lights: [])");
-    desk.put("c.compare.ron", r#"(version: 1, output: "airlight", size: (8, 6), scenes: { "s": (scene: "s.scene.ron") },
-        methods: { "fog": (graph: "fog.graph.ron") })"#);
+    desk.put(
+        "c.compare.ron",
+        r#"(version: 1, output: "airlight", size: (8, 6), scenes: { "s": (scene: "s.scene.ron") },
+        methods: { "fog": (graph: "fog.graph.ron") })"#,
+    );
     let ended = desk.ends(0, &["check", "s.scene.ron", "c.compare.ron", "fog.graph.ron"]);
     assert!(ended.out.contains("3 files without mistakes"), "{}", ended.out);
     desk.put("s.scene.ron", "(camera: (position: (0, 1, 5), look_at: (0, 1, 0)), lihgts: [])");
