@@ -104,9 +104,9 @@ pub(crate) struct Render {
 
 #[derive(Debug, Args)]
 pub(crate) struct Check {
-    /// Graph files
+    /// Graph files; scene files (`.scene.ron`) and comparisons (`.compare.ron`) as well
     #[arg(value_name = "GRAPH", required = true)]
-    pub graphs: Vec<PathBuf>,
+    pub files: Vec<PathBuf>,
     /// How mistakes are written
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,

@@ -1,9 +1,10 @@
 //! Every pass that a graph can use, linked and checked, and how to make each ready.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::hash::Hasher;
 use std::sync::Arc;
 
+use siphasher::sip::SipHasher13;
 use tyndall_document::{Diagnostic, Diagnostics, Place, near};
 use tyndall_gpu::{GpuError, Program, Programs, Setup};
 use tyndall_graph::descriptor::{PRESET, PassDescriptor};
@@ -11,7 +12,7 @@ use tyndall_graph::{Catalogue, PictureSize};
 use tyndall_shader::{Library, Linked, check_all, link};
 
 use crate::codes::{BAD_DESCRIPTOR, DUPLICATE_PLUGIN, MISSING_SHADER};
-use crate::dispatch;
+use crate::dispatch::{self, Over};
 use crate::folder::{Folder, MANIFEST, Origin};
 use crate::limits::Limit;
 use crate::manifest::{self, Manifest, ManifestPass, Version};
@@ -50,7 +51,7 @@ pub struct RegistryPass {
 
 #[derive(Clone)]
 enum Make {
-    Dispatch { file: String, over: String },
+    Dispatch { file: String, over: Over },
     Rust(Arc<MakeProgram>),
 }
 
@@ -212,12 +213,12 @@ impl Builder<'_> {
             return;
         }
         let over = match &pass.over {
-            Some((port, span)) if descriptor.port(port).is_none() => {
+            Some((Over::Port(port), span)) if descriptor.port(port).is_none() => {
                 let message = format!("`dispatch` names `{port}`, which is no port of this pass");
                 self.out.push(Diagnostic::error(crate::codes::BAD_PORT, manifest.source.place(*span), message));
                 return;
             }
-            Some((port, _)) => Some(port.clone()),
+            Some((over, _)) => Some(over.clone()),
             None => dispatch::default_over(&descriptor),
         };
         let Some(over) = over else {
@@ -305,8 +306,8 @@ impl Builder<'_> {
 }
 
 fn fingerprint(shaders: &Shaders) -> u64 {
-    let mut hasher = DefaultHasher::new();
+    let mut hasher = SipHasher13::new();
     let all: BTreeSet<u64> = shaders.0.values().map(|linked| linked.fingerprint).collect();
-    all.hash(&mut hasher);
+    all.iter().for_each(|fingerprint| hasher.write(&fingerprint.to_le_bytes()));
     hasher.finish()
 }

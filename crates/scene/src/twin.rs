@@ -1,12 +1,12 @@
 //! A scene at one time as the twins of shaders take it.
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use tyndall_shaders::scene as twin;
 
 use crate::cosine_lobes::CosineLobes;
 use crate::frame::{FrameLight, View};
 use crate::layout::CosineLobe;
-use crate::model::LightKind;
+use crate::model::{Instance, LightKind, Material, Texture, Wrap};
 use crate::scene::Scene;
 
 impl Scene {
@@ -29,6 +29,59 @@ impl Scene {
             shininesses: shiny.map(|material| material.shininess).collect(),
             cosine_lobes: lobes.items.iter().map(cosine_lobe).collect(),
         }
+    }
+
+    /// The triangles that [`Scene::encode`] gives shaders, and what they look like, in double precision.
+    pub fn surfaces(&self, time: f64) -> twin::Surfaces {
+        let frame = self.at(time);
+        let lobes = CosineLobes::of(&self.materials, &frame.lights);
+        let instances = self.instances.iter().zip(&frame.transforms);
+        twin::Surfaces {
+            triangles: instances.flat_map(|(instance, transform)| triangles(instance, *transform)).collect(),
+            materials: self.materials.iter().map(|of| material(of, lobes.of_material(of))).collect(),
+            textures: self.textures.iter().map(texture).collect(),
+        }
+    }
+}
+
+/// Triangles of an instance where it stands, turned around where its transform mirrors.
+fn triangles(instance: &Instance, transform: DAffine3) -> impl Iterator<Item = twin::Triangle> + '_ {
+    let (mesh, mirrored) = (&instance.mesh, transform.matrix3.determinant() < 0.0);
+    let normals = transform.matrix3.inverse().transpose();
+    let vertex = move |index: u32| {
+        let index = index as usize;
+        twin::Vertex {
+            position: transform.transform_point3(mesh.positions[index].as_dvec3()),
+            normal: (normals * mesh.normals[index].as_dvec3()).normalize(),
+            uv: mesh.uvs[index].as_dvec2(),
+        }
+    };
+    mesh.triangles.iter().map(move |&[a, b, c]| {
+        let (b, c) = if mirrored { (c, b) } else { (b, c) };
+        twin::Triangle { corners: [a, b, c].map(&vertex), material: instance.material }
+    })
+}
+
+fn material(material: &Material, lobe: u32) -> twin::Material {
+    let Material { diffuse, specular, shininess, texture } = *material;
+    twin::Material { diffuse, specular, shininess, lobe, texture }
+}
+
+fn texture(texture: &Texture) -> twin::Texture {
+    let wrap = |wrap: Wrap| match wrap {
+        Wrap::Repeat => twin::Wrap::Repeat,
+        Wrap::Clamp => twin::Wrap::Clamp,
+        Wrap::Mirror => twin::Wrap::Mirror,
+    };
+    let rgb = |texel: &u32| {
+        let [r, g, b, _] = texel.to_le_bytes();
+        [r, g, b]
+    };
+    twin::Texture {
+        width: texture.width,
+        height: texture.height,
+        wrap: texture.wrap.map(wrap),
+        texels: texture.texels.iter().map(rgb).collect(),
     }
 }
 

@@ -34,5 +34,16 @@ fn question(pass: &str, input: &ReferenceInput<'_>) -> u64 {
         (name, value.to_string()).hash(&mut hasher);
     }
     format!("{:?}", input.scene).hash(&mut hasher);
+    if let Some(surfaces) = input.surfaces {
+        for triangle in &surfaces.triangles {
+            triangle.material.hash(&mut hasher);
+            for corner in &triangle.corners {
+                let [position, normal] =
+                    [corner.position, corner.normal].map(|vector| vector.to_array().map(f64::to_bits));
+                (position, normal, corner.uv.to_array().map(f64::to_bits)).hash(&mut hasher);
+            }
+        }
+        format!("{:?}", (&surfaces.materials, &surfaces.textures)).hash(&mut hasher);
+    }
     hasher.finish()
 }

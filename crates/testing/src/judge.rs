@@ -134,7 +134,6 @@ impl Computing<'_> {
         let descriptor = plan.descriptor(position);
         let registered = self.registry.pass(&descriptor.name).and_then(|pass| pass.reference);
         let reference = registered.ok_or_else(|| format!("`{}` has no reference on the CPU", descriptor.name))?;
-        let ports = || descriptor.ports.iter().enumerate();
         let mut inputs = BTreeMap::new();
         for (index, from) in inputs_of(plan, port.pass) {
             let name = descriptor.ports[index].name.as_str();
@@ -142,9 +141,11 @@ impl Computing<'_> {
                 rendered.ports.get(&from).ok_or_else(|| format!("what is fed into `{name}` was not rendered"))?;
             inputs.insert(name, data.as_ref());
         }
-        let resources = ports().filter_map(|(index, port)| {
-            Some((port.name.as_str(), plan.slots[plan.bindings(position)[index]? as usize].resource))
-        });
+        let resources = descriptor
+            .ports
+            .iter()
+            .zip(plan.bindings(position))
+            .filter_map(|(port, slot)| Some((port.name.as_str(), plan.slots[(*slot)? as usize].resource)));
         let frame = rendered.frame;
         let value = |setting: &ParamSetting| match setting {
             ParamSetting::Value(value) => value.clone(),
@@ -153,12 +154,16 @@ impl Computing<'_> {
         };
         let params = descriptor.params.iter().zip(plan.params(position));
         let (time, aspect) = moment(plan, frame);
-        let scene = self.loaded.scene.as_ref().map(|scene| scene.twin(time, aspect));
+        let scene = self.loaded.scene.as_ref();
+        let reads_triangles = descriptor.scene.iter().any(|name| name == "triangles");
+        let surfaces = scene.filter(|_| reads_triangles).map(|scene| scene.surfaces(time));
+        let scene = scene.map(|scene| scene.twin(time, aspect));
         let input = ReferenceInput {
             inputs,
             resources: resources.collect(),
             params: params.map(|(param, setting)| (param.name.as_str(), value(setting))).collect(),
             scene: scene.as_ref(),
+            surfaces: surfaces.as_ref(),
         };
         let answer = self.answers.of(&descriptor.name, reference, &input);
         let outputs = answer.as_ref().as_ref().map_err(String::clone)?;
@@ -171,7 +176,7 @@ impl Computing<'_> {
                 actual.image.data.len()
             ));
         }
-        Ok(Picture::new(Image { data, ..actual.image }, actual.class))
+        Ok(actual.with(Image { data, ..actual.image }))
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use tyndall_document::Diagnostics;
 use tyndall_gpu::{Executor, FRAMES_PER_SECOND, FrameOptions, Gpu, PipelineCache, PortData, Timing};
 use tyndall_graph::descriptor::{Format, Role};
 use tyndall_graph::{Graph, Order, Plan, PlanOptions, PortRef, Resource, Roots};
@@ -28,7 +29,8 @@ pub struct Session {
     plugins: Plugins,
     search: Vec<SearchPath>,
     gpu: Arc<Gpu>,
-    registries: HashMap<Vec<PathBuf>, Arc<Registry>>,
+    /// By the folders that were searched; where one cannot be had, every mistake.
+    registries: HashMap<Vec<PathBuf>, Result<Arc<Registry>, Diagnostics>>,
     cache: PipelineCache,
     results: HashMap<ResultKey, Arc<PortData>>,
     held: usize,
@@ -130,15 +132,12 @@ impl Session {
             paths.insert(at, SearchPath { path: beside, required: false });
         }
         let key: Vec<_> = paths.iter().map(|search| search.path.clone()).collect();
-        let registry = match self.registries.get(&key) {
-            Some(registry) => registry.clone(),
-            None => {
-                let crates = self.plugins.iter().map(|plugin| plugin()).collect();
-                let registry = Arc::new(tyndall_render::registry(crates, &paths)?);
-                self.registries.insert(key, registry.clone());
-                registry
-            }
-        };
+        if !self.registries.contains_key(&key) {
+            let crates = self.plugins.iter().map(|plugin| plugin()).collect();
+            let registry = tyndall_render::registry(crates, &paths).map(Arc::new);
+            self.registries.insert(key.clone(), registry);
+        }
+        let registry = self.registries[&key].clone()?;
         Ok(match &mut self.substitute {
             Some(substitute) => substitute.registry(&registry),
             None => registry,

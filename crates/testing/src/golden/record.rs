@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
 
 use tyndall_document::{Decoder, Diagnostics, Node, Source, parse};
 
 use super::RECORDS;
 use crate::adapter::AdapterClass;
+use crate::digest::Digest;
 use crate::fingerprint::Fingerprint;
 
 /// What one golden was made from.
@@ -30,9 +30,9 @@ pub struct Records(BTreeMap<String, Record>);
 
 /// A hash of a file's bytes, as the records hold it.
 pub(crate) fn content_hash(bytes: &[u8]) -> String {
-    let mut hasher = DefaultHasher::new();
-    bytes.hash(&mut hasher);
-    hex(hasher.finish())
+    let mut digest = Digest::default();
+    digest.bytes(bytes);
+    hex(digest.finish())
 }
 
 fn hex(number: u64) -> String {

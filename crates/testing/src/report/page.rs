@@ -2,20 +2,20 @@
 
 use std::fmt::Write as _;
 
-use super::pictures::{MULTIPLES, Shown};
-use super::slug;
+use super::GENERATOR;
+use super::pictures::{MULTIPLES, STEPS, Shown};
 use crate::outcome::{Outcome, PassOutcome, PortOutcome, RelationOutcome, State};
 use crate::summary::escaped;
 
 /// Width and height of a pass in the drawing of the graph, and the room between, in CSS pixels.
-const CARD: usize = 190;
-const ROW: usize = 84;
-const GAP: usize = 46;
+const CARD: usize = 164;
+const ROW: usize = 88;
+const GAP: usize = 30;
 
 fn whole(title: &str, body: &str) -> String {
     let title = escaped(title);
     format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n\
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n{GENERATOR}\n\
          <title>{title}</title>\n<link rel=\"icon\" href=\"data:,\">\n<link rel=\"stylesheet\" href=\"report.css\">\n<script src=\"report.js\" defer></script>\n</head>\n\
          <body>\n{body}</body>\n</html>\n"
     )
@@ -30,16 +30,16 @@ pub(super) fn index(adapter: &str, outcomes: &[Outcome]) -> String {
         outcomes.len() - failed,
         escaped(adapter)
     );
-    let mut rows: Vec<(usize, &Outcome)> = outcomes.iter().enumerate().collect();
-    rows.sort_by_key(|(_, outcome)| outcome.passed());
-    for (number, outcome) in rows {
+    let mut rows: Vec<&Outcome> = outcomes.iter().collect();
+    rows.sort_by_key(|outcome| outcome.passed());
+    for outcome in rows {
         let class = if outcome.passed() { "passed" } else { "failed" };
         let first = outcome.guilty().first().map_or("", |pass| pass);
         let first = if first.is_empty() && !outcome.passed() { "could not be judged" } else { first };
         let _ = writeln!(
             body,
-            "<tr class=\"{class}\"><td><a href=\"{}.html\">{}</a><br><small>{}</small></td><td>{}</td><td>{}</td><td>{}</td><td>{:.0} ms</td></tr>",
-            slug(number, outcome),
+            "<tr class=\"{class}\"><td><a href=\"{}.html\">{}</a><br><small>{}</small></td><td class=\"first\">{}</td><td>{}</td><td>{}</td><td>{:.0} ms</td></tr>",
+            outcome.page,
             escaped(&outcome.name()),
             escaped(&outcome.about),
             escaped(first),
@@ -129,7 +129,7 @@ fn graph(outcome: &Outcome, folder: &str) -> String {
         cards += &card(outcome, pass, (*x, *y), folder);
     }
     format!(
-        "<div class=\"graph\" style=\"width:{width}px;height:{height}px\"><svg width=\"{width}\" height=\"{height}\" aria-hidden=\"true\">{lines}</svg>{cards}</div>\n"
+        "<div class=\"graph\" tabindex=\"0\" role=\"region\" aria-label=\"the graph\" style=\"width:{width}px;height:{height}px\"><svg width=\"{width}\" height=\"{height}\" aria-hidden=\"true\">{lines}</svg>{cards}</div>\n"
     )
 }
 
@@ -213,12 +213,13 @@ fn section(outcome: &Outcome, port: &PortOutcome, shown: &Shown, folder: &str) -
         let _ = writeln!(
             html,
             "<div class=\"pictures\"><figure><div class=\"compare\">{}<div class=\"over\">{}</div></div>\
-             <input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"expected to the left, actual to the right\"><figcaption>expected | actual</figcaption></figure>\
-             <figure>{}<figcaption>difference: blue below the tolerance, yellow at ten times it</figcaption></figure>\
+             <input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"expected to the left, actual to the right\"><figcaption>expected to the left, actual to the right</figcaption></figure>\
+             <figure>{}<figcaption>difference: blue within the tolerance, red beyond it, white at {:.3} times it</figcaption></figure>\
              <figure>{}<figcaption>{}</figcaption></figure><figure>{}<figcaption>actual and expected, {} to {}</figcaption></figure></div>",
             picture("actual"),
             picture("expected"),
             picture("difference"),
+            shown.largest,
             picture("failing"),
             failing(shown),
             histogram(shown),
@@ -241,9 +242,13 @@ fn section(outcome: &Outcome, port: &PortOutcome, shown: &Shown, folder: &str) -
     html + "</details>\n"
 }
 
+/// How many pixels are beyond each multiple of the tolerance, with their colours.
 fn failing(shown: &Shown) -> String {
-    let counts = MULTIPLES.iter().zip(shown.failing).map(|(multiple, count)| format!("{count} beyond {multiple}×"));
-    format!("of {} pixels: {} the tolerance", shown.pixels, counts.collect::<Vec<_>>().join(", "))
+    let count = |((multiple, count), [r, g, b]): ((&f64, usize), &[u8; 3])| {
+        format!("<span><i style=\"background:rgb({r},{g},{b})\"></i>{multiple}×: {count}</span>")
+    };
+    let counts: String = MULTIPLES.iter().zip(shown.failing).zip(&STEPS[1..]).map(count).collect();
+    format!("of {} pixels, beyond the tolerance <span class=\"counts\">{counts}</span>", shown.pixels)
 }
 
 /// Bars of what came out over those of what was expected; the height is the logarithm of the count.
