@@ -189,7 +189,7 @@ fn sample_of_lobe(piece: Piece, node: vec2<f32>) -> NodeSample {
 // `node` is x in -1..1 and its weight.
 fn sample_of(piece: Piece, node: vec2<f32>) -> NodeSample {
     var sample: NodeSample;
-    if phase_table_count > 0u {
+    if phase_table_count != 0u {
         sample = sample_of_table(piece, node);
     } else {
         sample = sample_of_lobe(piece, node);
@@ -252,14 +252,14 @@ fn airlight(cursor: Cursor, light: Light, medium: Medium, phase: Phase, ray: Ray
     let whole = interval_of_way(beside, way);
     let spot = spot_beside_ray(light, ray.direction, beside.from_light, whole.start, whole.start + whole.width, depth_of_v);
     var chunk = Chunk(Interval(whole.start, min(whole.width, DEPTH_MAX / depth_of_v)), false);
-    if phase_table_count > 0u && light.kind == POINT {
+    if phase_table_count != 0u && light.kind == POINT {
         chunk = chunk_of_table(depth_of_v, whole, cursor.start);
     }
     if light.kind == SPOT {
         chunk = chunk_of_spot(spot, light.exponent, lobe.rho, depth_of_v, whole, cursor.start);
     }
     var piece: Piece;
-    if phase_table_count > 0u {
+    if phase_table_count != 0u {
         piece = piece_of_table(light, spot, beside, medium, depth_of_v, chunk.interval);
     } else {
         piece = piece_of(lobe, light, spot, beside, medium, depth_of_v, chunk.interval);
@@ -310,7 +310,7 @@ fn chunk_of_spot(spot: SpotBesideRay, exponent: f32, rho: f32, depth_of_v: f32, 
     let low = max(max(lit.x, whole.start), from_v);
     let high = max(min(lit.y, whole_end), low);
     // v where theta is `turn` more than at low; tan(x) is nearly x/(1 - 0.4 x^2), and beyond half a turn there is no end
-    let shorter = select(1.0, CHUNK_OF_TABLE, phase_table_count > 0u);
+    let shorter = select(1.0, CHUNK_OF_TABLE, phase_table_count != 0u);
     let turn = shorter * CHUNK_TURN * inverseSqrt(max(exponent, 0.1));
     let tangent = 0.5 * turn / max(1.0 - 0.1 * turn * turn, 0.01);
     let turned = select((low + tangent) / (1.0 - low * tangent), V_MAX, low * tangent >= 1.0);

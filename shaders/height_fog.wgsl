@@ -129,7 +129,7 @@ fn height_airlight(cursor: HeightCursor, light: Light, medium: Medium, fog: Heig
         chunk = chunk_of_spot(spot, light.exponent, lobe.rho, depth_of_v, whole, cursor.v);
     }
     var piece: Piece;
-    if phase_table_count > 0u {
+    if phase_table_count != 0u {
         piece = piece_of_table(light, spot, beside, medium, depth_of_v, chunk.interval);
     } else {
         piece = piece_of(lobe, light, spot, beside, medium, depth_of_v, chunk.interval);

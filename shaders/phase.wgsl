@@ -112,7 +112,7 @@ fn lobe_of(phase: Phase, index: u32) -> Lobe {
 // What a lobe adds to the phase function at w, 1/sr; a measured one is all in the first.
 fn lobe_or_table(lobe: Lobe, w: f32) -> f32 {
     var value: f32;
-    if phase_table_count > 0u {
+    if phase_table_count != 0u {
         value = measured_phase_at(w, 1.0 - w);
     } else {
         value = lobe_phase(lobe, w);
@@ -128,7 +128,7 @@ fn phase_at(phase: Phase, w: f32) -> f32 {
 // The same where 1 - w is known apart, as `rest`.
 fn phase_of(phase: Phase, w: f32, rest: f32) -> f32 {
     var value: f32;
-    if phase_table_count > 0u {
+    if phase_table_count != 0u {
         value = measured_phase_at(w, rest);
     } else {
         value = lobe_phase_of(phase.lobes[0], w, rest) + lobe_phase_of(phase.lobes[1], w, rest);

@@ -181,10 +181,10 @@ impl Sites<'_> {
                     }
                 }
             }
-            Expression::Math { fun: MathFunction::Min | MathFunction::Max, arg, arg1: Some(other), .. } => {
-                if !self.alike(arg, other) {
-                    add(SwapMinMax, Edit::OtherBound);
-                }
+            Expression::Math { fun: MathFunction::Min | MathFunction::Max, arg, arg1: Some(other), .. }
+                if !self.alike(arg, other) =>
+            {
+                add(SwapMinMax, Edit::OtherBound);
             }
             Expression::Math { fun, arg, arg1: Some(second), arg2, .. } => {
                 let pair = match fun {

@@ -18,7 +18,7 @@ pub(super) struct Draw {
 
 impl Draw {
     /// Of these sites, each with the function that it is in.
-    pub fn new(sites: Vec<(&str, MutationKind)>, pass: &str, seed: u64) -> Self {
+    pub fn new(sites: &[(&str, MutationKind)], pass: &str, seed: u64) -> Self {
         let mut functions: BTreeMap<&str, Vec<(usize, MutationKind)>> = BTreeMap::new();
         for (index, (function, kind)) in sites.iter().enumerate() {
             functions.entry(function).or_default().push((index, *kind));
@@ -82,7 +82,7 @@ mod tests {
     }
 
     fn all(pass: &str, seed: u64) -> Vec<usize> {
-        let mut draw = Draw::new(sites(), pass, seed);
+        let mut draw = Draw::new(&sites(), pass, seed);
         std::iter::from_fn(|| draw.next()).collect()
     }
 

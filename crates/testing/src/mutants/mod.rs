@@ -241,8 +241,8 @@ fn of_pass(session: &mut Session, hunt: &Hunt, pass: &RegistryPass, tests: &[&Pa
         mutants: Vec::new(),
         took: start.elapsed(),
     };
-    let places = sites.iter().map(|(_, _, mutation)| (mutation.function.as_str(), mutation.kind)).collect();
-    let mut draw = Draw::new(places, &name, hunt.seed);
+    let places: Vec<_> = sites.iter().map(|(_, _, mutation)| (mutation.function.as_str(), mutation.kind)).collect();
+    let mut draw = Draw::new(&places, &name, hunt.seed);
     let mut trials = Trials { session, pass: &name, fingerprint: pass.fingerprint, tests, goldens: hunt.goldens };
     let bounds = pass.shaders().map(|(file, shader)| Ok((file.to_owned(), trials.bound(file, shader)?)));
     let bounds = bounds.collect::<Result<BTreeMap<_, _>, Trouble>>()?;

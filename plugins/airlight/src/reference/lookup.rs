@@ -21,7 +21,7 @@ const SPOT_PARTS: u32 = 8;
 /// cos^N is left out below 2^-30 of its largest value on the ray, and this much sooner for each metre of v beyond the start:
 /// as in `cone.wgsl`.
 const FALLOFF_BITS: f64 = 30.0;
-const BITS_PER_V: f64 = 1.4427;
+const BITS_PER_V: f64 = std::f64::consts::LOG2_E;
 const MOST_BITS: f64 = 1000.0;
 const V_MAX: f64 = 1e18;
 /// A light so far behind the eye leaves nothing in f32.
