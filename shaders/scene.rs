@@ -18,6 +18,21 @@ pub struct Scene {
     pub background: DVec3,
     /// In the order of the scene.
     pub lights: Vec<Light>,
+    /// Shininess of each material that has a Phong lobe, in the order of the scene.
+    pub shininesses: Vec<f64>,
+    /// Lobes of surfaces and spots, each once.
+    pub cosine_lobes: Vec<CosineLobe>,
+}
+
+/// cosⁿ within a cutoff: twin of `CosineLobe`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CosineLobe {
+    /// n.
+    pub exponent: f64,
+    /// Cosine of the half-angle where a spot ends; 0 of a surface.
+    pub cos_cutoff: f64,
+    /// A spot sends it, and no surface.
+    pub is_spot: bool,
 }
 
 /// A pinhole camera: twin of `Camera`.

@@ -5,13 +5,16 @@ use tyndall_shaders::scene as twin;
 
 use crate::cosine_lobes::CosineLobes;
 use crate::frame::{FrameLight, View};
+use crate::layout::CosineLobe;
 use crate::model::{Instance, LightKind, Material, Texture, Wrap};
 use crate::scene::Scene;
 
 impl Scene {
-    /// What [`Scene::encode`] gives shaders, in double precision, for the twins of shaders; triangles and materials apart.
+    /// What [`Scene::encode`] gives shaders, in double precision, for the twins of shaders; triangles apart.
     pub fn twin(&self, time: f64, aspect: f64) -> twin::Scene {
         let frame = self.at(time);
+        let shiny = self.materials.iter().filter(|material| material.specular.max_element() > 0.0);
+        let lobes = CosineLobes::of(&self.materials, &frame.lights);
         twin::Scene {
             camera: camera(&frame.camera, aspect),
             medium: self.medium.unwrap_or(twin::Medium {
@@ -23,6 +26,8 @@ impl Scene {
             ambient: self.ambient,
             background: self.background,
             lights: frame.lights.iter().map(light).collect(),
+            shininesses: shiny.map(|material| material.shininess).collect(),
+            cosine_lobes: lobes.items.iter().map(cosine_lobe).collect(),
         }
     }
 
@@ -78,6 +83,11 @@ fn texture(texture: &Texture) -> twin::Texture {
         wrap: texture.wrap.map(wrap),
         texels: texture.texels.iter().map(rgb).collect(),
     }
+}
+
+fn cosine_lobe(lobe: &CosineLobe) -> twin::CosineLobe {
+    let [exponent, cos_cutoff] = [lobe.exponent, lobe.cos_cutoff].map(f64::from);
+    twin::CosineLobe { exponent, cos_cutoff, is_spot: lobe.is_spot != 0 }
 }
 
 fn camera(view: &View, aspect: f64) -> twin::Camera {

@@ -58,7 +58,7 @@ pub struct Linked {
     pub unused: Vec<Unused>,
     /// Of the linked text; the same in every process, with every toolchain.
     pub fingerprint: u64,
-    map: Map,
+    pub(crate) map: Map,
 }
 
 /// Something that the root declares and no entry point uses.

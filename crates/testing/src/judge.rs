@@ -1,14 +1,15 @@
 //! What was rendered, held against everything that a test says, and whose fault it is where that does not hold.
 
-use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use tyndall_graph::descriptor::ParamValue;
-use tyndall_graph::{ParamSetting, Plan};
+use tyndall_graph::{ParamSetting, Plan, PortRef};
 use tyndall_image::Image;
-use tyndall_plugin::ReferenceInput;
+use tyndall_plugin::{ReferenceInput, Registry};
+use tyndall_render::Loaded;
 
 use crate::adapter::AdapterClass;
+use crate::answers::Answers;
 use crate::file::{MOST_TEXELS, Property, Tapped};
 use crate::golden;
 use crate::metric::Judgement;
@@ -16,26 +17,18 @@ use crate::options::Options;
 use crate::outcome::{Check, GOLDEN, Outcome, PortOutcome, State};
 use crate::picture::Picture;
 use crate::property;
-use crate::run::{Ready, find};
+use crate::run::{Ready, find, inputs_of};
 use crate::session::{Rendered, moment};
 
 /// Holds ports against what a test says of them.
 pub(crate) struct Judge<'a> {
-    ready: &'a Ready,
-    options: &'a Options,
-    adapter: AdapterClass,
-    /// What references on the CPU said of each pass in each frame: of all its ports at once.
-    computed: RefCell<BTreeMap<(u32, u32), Outputs>>,
+    pub ready: &'a Ready,
+    pub options: &'a Options,
+    pub adapter: AdapterClass,
+    pub answers: &'a Answers,
 }
 
-/// The ports of a pass as its reference computes them.
-type Outputs = Result<BTreeMap<&'static str, Vec<f32>>, String>;
-
-impl<'a> Judge<'a> {
-    pub fn new(ready: &'a Ready, options: &'a Options, adapter: AdapterClass) -> Self {
-        Self { ready, options, adapter, computed: RefCell::default() }
-    }
-
+impl Judge<'_> {
     /// Every tapped port of a frame, in the order in which the passes run.
     pub fn frame(&self, rendered: &Rendered) -> Vec<PortOutcome> {
         self.ready.tapped.iter().map(|tapped| self.port(tapped, rendered)).collect()
@@ -119,33 +112,30 @@ impl<'a> Judge<'a> {
         Check { what: property::name(property), judgement, also_on }
     }
 
-    /// A port as the pass's reference on the CPU has it.
     fn computed(&self, tapped: &Tapped, actual: &Picture, rendered: &Rendered) -> Result<Picture, String> {
-        let pass = tapped.port.pass;
-        let mut computed = self.computed.borrow_mut();
-        let outputs = computed.entry((pass, rendered.frame)).or_insert_with(|| self.outputs(pass, rendered));
-        let outputs = outputs.as_ref().map_err(String::clone)?;
-        let port = &self.ready.loaded.graph.port(tapped.port).name;
-        let data = outputs.get(port.as_str()).ok_or_else(|| format!("the reference says nothing of `{port}`"))?;
-        if data.len() != actual.image.data.len() {
-            return Err(format!(
-                "the reference gives {} numbers, and the port holds {}",
-                data.len(),
-                actual.image.data.len()
-            ));
-        }
-        Ok(actual.with(Image { data: data.clone(), ..actual.image }))
+        let Ready { plan, registry, loaded, .. } = self.ready;
+        Computing { plan, registry, loaded, answers: self.answers }.port(tapped.port, actual, rendered)
     }
+}
 
+/// What is asked of references on the CPU.
+pub(crate) struct Computing<'a> {
+    pub plan: &'a Plan,
+    pub registry: &'a Registry,
+    pub loaded: &'a Loaded,
+    pub answers: &'a Answers,
+}
+
+impl Computing<'_> {
     /// What the pass's reference on the CPU makes of the inputs that the pass was given.
-    fn outputs(&self, pass: u32, rendered: &Rendered) -> Outputs {
-        let plan = &self.ready.plan;
-        let position = plan.position(pass).ok_or("the pass does not run")?;
+    pub fn port(&self, port: PortRef, actual: &Picture, rendered: &Rendered) -> Result<Picture, String> {
+        let plan = self.plan;
+        let position = plan.position(port.pass).ok_or("the pass does not run")?;
         let descriptor = plan.descriptor(position);
-        let registered = self.ready.registry.pass(&descriptor.name).and_then(|pass| pass.reference);
+        let registered = self.registry.pass(&descriptor.name).and_then(|pass| pass.reference);
         let reference = registered.ok_or_else(|| format!("`{}` has no reference on the CPU", descriptor.name))?;
         let mut inputs = BTreeMap::new();
-        for (index, from) in self.ready.inputs(pass) {
+        for (index, from) in inputs_of(plan, port.pass) {
             let name = descriptor.ports[index].name.as_str();
             let data =
                 rendered.ports.get(&from).ok_or_else(|| format!("what is fed into `{name}` was not rendered"))?;
@@ -164,16 +154,29 @@ impl<'a> Judge<'a> {
         };
         let params = descriptor.params.iter().zip(plan.params(position));
         let (time, aspect) = moment(plan, frame);
-        let scene = self.ready.loaded.scene.as_ref();
+        let scene = self.loaded.scene.as_ref();
         let reads_triangles = descriptor.scene.iter().any(|name| name == "triangles");
         let surfaces = scene.filter(|_| reads_triangles).map(|scene| scene.surfaces(time));
-        reference(&ReferenceInput {
+        let scene = scene.map(|scene| scene.twin(time, aspect));
+        let input = ReferenceInput {
             inputs,
             resources: resources.collect(),
             params: params.map(|(param, setting)| (param.name.as_str(), value(setting))).collect(),
-            scene: scene.map(|scene| scene.twin(time, aspect)).as_ref(),
+            scene: scene.as_ref(),
             surfaces: surfaces.as_ref(),
-        })
+        };
+        let answer = self.answers.of(&descriptor.name, reference, &input);
+        let outputs = answer.as_ref().as_ref().map_err(String::clone)?;
+        let port = &self.loaded.graph.port(port).name;
+        let data = outputs.get(port.as_str()).ok_or_else(|| format!("the reference says nothing of `{port}`"))?.clone();
+        if data.len() != actual.image.data.len() {
+            return Err(format!(
+                "the reference gives {} numbers, and the port holds {}",
+                data.len(),
+                actual.image.data.len()
+            ));
+        }
+        Ok(actual.with(Image { data, ..actual.image }))
     }
 }
 

@@ -12,6 +12,7 @@
 //! | whose fault it is: [`Outcome`] | `judge` |
 //! | goldens and what they were made from | [`golden`] |
 //! | pages that show it | [`Report`] |
+//! | whether the tests themselves notice mistakes | [`mutants`] |
 //!
 //! It knows no command line; the verbs `tyndall test` and `tyndall diff` are one user of it, the tests of a plugin's
 //! crate another:
@@ -25,6 +26,7 @@
 //! ```
 
 mod adapter;
+mod answers;
 mod bless;
 pub mod codes;
 mod digest;
@@ -36,6 +38,7 @@ pub mod golden;
 mod isolate;
 mod judge;
 mod metric;
+pub mod mutants;
 mod options;
 mod outcome;
 mod picture;
@@ -45,6 +48,7 @@ mod report;
 mod robust;
 mod run;
 mod session;
+mod substitute;
 pub mod summary;
 mod told;
 

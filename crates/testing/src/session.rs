@@ -13,8 +13,10 @@ use tyndall_plugin::{Plugin, Registry, SearchPath};
 use tyndall_render::{Error, Loaded, Running};
 use tyndall_scene::Encoded;
 
+use crate::answers::Answers;
 use crate::fingerprint::{Fingerprint, fingerprints};
 use crate::picture::Picture;
+use crate::substitute::Substitute;
 
 /// Makes the plugins of a registry.
 pub type Plugins = Vec<fn() -> Plugin>;
@@ -32,11 +34,13 @@ pub struct Session {
     cache: PipelineCache,
     results: HashMap<ResultKey, Arc<PortData>>,
     held: usize,
+    substitute: Option<Substitute>,
+    pub(crate) answers: Answers,
     /// What sharing has saved.
     pub saved: Saved,
 }
 
-type ResultKey = (Fingerprint, u32);
+pub(crate) type ResultKey = (Fingerprint, u32);
 
 /// Results that are held at most, numbers: 1 GiB. Beyond it all are let go, and sharing begins anew.
 const MOST_HELD: usize = 1 << 28;
@@ -104,6 +108,8 @@ impl Session {
             cache: PipelineCache::default(),
             results: HashMap::new(),
             held: 0,
+            substitute: None,
+            answers: Answers::default(),
             saved: Saved::default(),
         })
     }
@@ -131,7 +137,28 @@ impl Session {
             let registry = tyndall_render::registry(crates, &paths).map(Arc::new);
             self.registries.insert(key.clone(), registry);
         }
-        Ok(self.registries[&key].clone()?)
+        let registry = self.registries[&key].clone()?;
+        Ok(match &mut self.substitute {
+            Some(substitute) => substitute.registry(&registry),
+            None => registry,
+        })
+    }
+
+    /// From now on a shader stands in for one of a pass's own; what is rendered with it is not kept for later.
+    pub(crate) fn substitute(&mut self, substitute: Substitute) {
+        self.restore();
+        self.substitute = Some(substitute);
+    }
+
+    /// Ends that. Tells whether any port came out with other bits than from the pass's own shader.
+    pub(crate) fn restore(&mut self) -> bool {
+        let Some(substitute) = self.substitute.take() else { return false };
+        self.cache.forget(substitute.shader.fingerprint);
+        substitute.changed
+    }
+
+    fn known(&self, key: &ResultKey) -> Option<&Arc<PortData>> {
+        self.results.get(key).or_else(|| self.substitute.as_ref()?.results.get(key))
     }
 
     /// Plans a graph so that these ports can be read.
@@ -220,7 +247,7 @@ impl Session {
             let Some(planned) = plan.planned(*port) else { continue };
             let key = key(plan, &prints, planned);
             rendered.made_from.insert(*port, key.map(|key| key.0));
-            match key.and_then(|key| self.results.get(&key)) {
+            match key.and_then(|key| self.known(&key)) {
                 Some(data) => drop(rendered.ports.insert(*port, data.clone())),
                 None => missing.push(*port),
             }
@@ -228,6 +255,7 @@ impl Session {
         self.saved.passes += plan.passes.len();
         if missing.is_empty() {
             self.saved.spared += plan.passes.len();
+            self.compare(loaded, plan, &rendered);
             return Ok(rendered);
         }
         let rest = Self::plan(&loaded.graph, Roots::Ports(missing.clone()), Variation::PLAIN)?;
@@ -245,13 +273,14 @@ impl Session {
             }
             rendered.ports.insert(port, data);
         }
+        self.compare(loaded, plan, &rendered);
         Ok(rendered)
     }
 
     /// Gives every result that is known from before, where a device takes it.
     fn give_known(&self, executor: &mut Executor, prints: &[Option<Fingerprint>]) -> Result<(), Error> {
         for port in 0..executor.plan().ports.len() as u32 {
-            let known = key(executor.plan(), prints, port).and_then(|key| self.results.get(&key));
+            let known = key(executor.plan(), prints, port).and_then(|key| self.known(&key));
             if let Some(data) = known.filter(|_| can_be_given(executor.plan().resource(port))) {
                 let texels = data.texels(executor.plan().resource(port));
                 executor.give(port, &texels)?;
@@ -260,7 +289,29 @@ impl Session {
         Ok(())
     }
 
+    /// Holds what was rendered against what the pass's own shader made of it before.
+    fn compare(&mut self, loaded: &Loaded, plan: &Plan, rendered: &Rendered) {
+        let Some(original) = self.substitute.as_ref().and_then(|substitute| substitute.original.clone()) else {
+            return;
+        };
+        let prints = self.prints(loaded, &original, plan, rendered.frame);
+        let differs = |(port, data): (&PortRef, &Arc<PortData>)| {
+            let planned = &plan.ports[plan.planned(*port)? as usize];
+            let before = self.results.get(&(prints[planned.pass? as usize]?, planned.port.port))?;
+            let same = before.data.iter().zip(&data.data).all(|(a, b)| a.to_bits() == b.to_bits());
+            Some(!same)
+        };
+        let changed = rendered.ports.iter().any(|port| differs(port) == Some(true));
+        if let Some(substitute) = &mut self.substitute {
+            substitute.changed |= changed;
+        }
+    }
+
     fn keep(&mut self, key: ResultKey, data: &Arc<PortData>) {
+        if let Some(substitute) = &mut self.substitute {
+            substitute.results.insert(key, data.clone());
+            return;
+        }
         if self.held + data.data.len() > MOST_HELD {
             self.results.clear();
             self.held = 0;

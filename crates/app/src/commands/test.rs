@@ -72,6 +72,7 @@ fn options(verb: &Test) -> Result<Options, Failure> {
         tap: verb.tap.clone(),
         isolate: verb.isolate,
         without_goldens: verb.no_goldens,
+        until_failure: false,
         size: verb.size,
         robustness,
         for_report: verb.report.is_some(),
