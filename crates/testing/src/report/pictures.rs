@@ -196,9 +196,15 @@ mod tests {
 
     #[test]
     fn no_two_differences_look_alike() {
-        let brightness = |excess: f64| heat(excess, 1e4).iter().sum::<f32>();
-        let rising = [0.0, 0.1, 0.5, 1.0, 3.0, 30.0, 300.0, 1e4].map(brightness);
-        assert!(rising.windows(2).all(|pair| pair[0] <= pair[1]), "{rising:?}");
+        let rises = |excesses: &[f64]| {
+            let brightness: Vec<f32> = excesses.iter().map(|excess| heat(*excess, 1e4).iter().sum()).collect();
+            assert!(brightness.windows(2).all(|pair| pair[0] < pair[1]), "{brightness:?}");
+        };
+        rises(&[0.0, 0.1, 0.5, 1.0]);
+        rises(&[1.1, 3.0, 30.0, 300.0, 1e4]);
+        // The tolerance is where blue ends and red begins.
+        let ([red, _, blue], [red_beyond, _, blue_beyond]) = (heat(1.0, 1e4), heat(1.001, 1e4));
+        assert!(blue > 3.0 * red && red_beyond > 3.0 * blue_beyond);
         assert_eq!((heat(0.0, 1e4), heat(1e4, 1e4)), ([0.0; 3], [1.0; 3]));
         assert_eq!(heat(f64::INFINITY, 1e4), [1.0, 0.0, 1.0]);
     }
