@@ -90,8 +90,11 @@ impl Exposure {
     fn of(picture: &Picture) -> Self {
         let compared = picture.compared();
         let mut finite: Vec<f32> = compared.data.into_iter().filter(|value| value.is_finite()).collect();
-        finite.sort_by(f32::total_cmp);
-        let at = |part: f32| finite.get((part * (finite.len().max(1) - 1) as f32) as usize).copied().unwrap_or(0.0);
+        let mut at = |part: f32| {
+            let place = (part * finite.len().saturating_sub(1) as f32) as usize;
+            // Only what stands at the place is wanted, and not all in order.
+            if finite.is_empty() { 0.0 } else { *finite.select_nth_unstable_by(place, f32::total_cmp).1 }
+        };
         let range = match picture.class {
             Class::Display => (0.0, 1.0),
             Class::Vector => (-1.0, 1.0),
