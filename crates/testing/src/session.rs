@@ -277,18 +277,6 @@ impl Session {
         Ok(rendered)
     }
 
-    /// Gives every result that is known from before, where a device takes it.
-    fn give_known(&self, executor: &mut Executor, prints: &[Option<Fingerprint>]) -> Result<(), Error> {
-        for port in 0..executor.plan().ports.len() as u32 {
-            let known = key(executor.plan(), prints, port).and_then(|key| self.known(&key));
-            if let Some(data) = known.filter(|_| can_be_given(executor.plan().resource(port))) {
-                let texels = data.texels(executor.plan().resource(port));
-                executor.give(port, &texels)?;
-            }
-        }
-        Ok(())
-    }
-
     /// Holds what was rendered against what the pass's own shader made of it before.
     fn compare(&mut self, loaded: &Loaded, plan: &Plan, rendered: &Rendered) {
         let Some(original) = self.substitute.as_ref().and_then(|substitute| substitute.original.clone()) else {
@@ -305,6 +293,18 @@ impl Session {
         if let Some(substitute) = &mut self.substitute {
             substitute.changed |= changed;
         }
+    }
+
+    /// Gives every result that is known from before, where a device takes it.
+    fn give_known(&self, executor: &mut Executor, prints: &[Option<Fingerprint>]) -> Result<(), Error> {
+        for port in 0..executor.plan().ports.len() as u32 {
+            let known = key(executor.plan(), prints, port).and_then(|key| self.known(&key));
+            if let Some(data) = known.filter(|_| can_be_given(executor.plan().resource(port))) {
+                let texels = data.texels(executor.plan().resource(port));
+                executor.give(port, &texels)?;
+            }
+        }
+        Ok(())
     }
 
     fn keep(&mut self, key: ResultKey, data: &Arc<PortData>) {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use tyndall_testing::mutants::{Figures, Hunt, PassFindings, Trouble, hunt, json, lines};
+use tyndall_testing::mutants::{Figures, Hunt, PassFindings, Trouble, hunt, json, missed, table};
 use tyndall_testing::{Session, discover};
 
 use crate::App;
@@ -33,7 +33,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Mutants) -> Result<()
         return Err(Failure::Usage(format!("no pass that these tests run has {:?} in its name", verb.filter)));
     }
     terminal::line("");
-    lines(&findings).iter().for_each(|line| terminal::line(line));
+    table(&findings).iter().for_each(|line| terminal::line(line));
     if let Some(path) = &verb.json {
         tyndall_image::write_bytes(path, format!("{:#}\n", json(verb.seed, &findings)).as_bytes())?;
         terminal::line(&format!("\nwrote {}", path.display()));
@@ -41,7 +41,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Mutants) -> Result<()
     conclude(verb, &findings, start)
 }
 
-/// A line for each pass as it is done.
+/// What became of the mutants of a pass, as soon as it is done.
 fn told(of_pass: &PassFindings) {
     let Figures { made, killed, without_goldens, .. } = Figures::of([of_pass]);
     let seconds = of_pass.took.as_secs_f64();
@@ -49,6 +49,7 @@ fn told(of_pass: &PassFindings) {
         "{}: {killed} of {made} killed, {without_goldens} without goldens  ({seconds:.1} s)",
         of_pass.pass
     ));
+    missed(of_pass).iter().for_each(|line| terminal::line(line));
 }
 
 fn failure(trouble: Trouble) -> Failure {

@@ -46,7 +46,25 @@ impl Wording<'_> {
         if let Some(name) = self.function.named_expressions.get(&handle) {
             return name.clone();
         }
-        cut(&self.text(self.function.expressions.get_span(handle)).unwrap_or_else(|| "…".to_owned()))
+        let text = self.text(self.function.expressions.get_span(handle));
+        cut(&text.or_else(|| self.variable(handle)).unwrap_or_else(|| "…".to_owned()))
+    }
+
+    /// The name of a local variable that is read, which has no span of its own.
+    fn variable(&self, handle: Handle<Expression>) -> Option<String> {
+        match self.function.expressions[handle] {
+            Expression::Load { pointer } => self.variable(pointer),
+            Expression::LocalVariable(variable) => self.function.local_variables[variable].name.clone(),
+            _ => None,
+        }
+    }
+
+    /// An operand of an operator, in brackets where it has one of its own.
+    fn within(&self, handle: Handle<Expression>) -> String {
+        let text = self.operand(handle);
+        let named = self.function.named_expressions.contains_key(&handle);
+        let is_sum = matches!(self.function.expressions[handle], Expression::Binary { .. });
+        if is_sum && !named && !text.starts_with('(') { format!("({text})") } else { text }
     }
 
     /// An expression as it is, or after an edit.
@@ -62,7 +80,7 @@ impl Wording<'_> {
             (Some(Edit::Become(kept)), _) => of(&kept),
             (Some(Edit::Number(literal)), _) => number(literal),
             (_, Expression::Binary { op, left, right }) => {
-                let (mut left, mut right) = (of(left), of(right));
+                let (mut left, mut right) = (self.within(*left), self.within(*right));
                 if matches!(edit, Some(Edit::Swap(..))) {
                     std::mem::swap(&mut left, &mut right);
                 }

@@ -45,8 +45,8 @@ impl Figures {
     }
 }
 
-/// A table of the passes, and every mutant that was not killed, for people.
-pub fn lines(findings: &[PassFindings]) -> Vec<String> {
+/// A table of the passes, for people.
+pub fn table(findings: &[PassFindings]) -> Vec<String> {
     let width = findings.iter().map(|of_pass| of_pass.pass.len()).max().unwrap_or(0);
     let mut lines =
         vec![format!("{:width$}  tests  places  made  killed  without goldens  wrong pass  survived  seconds", "pass")];
@@ -63,26 +63,27 @@ pub fn lines(findings: &[PassFindings]) -> Vec<String> {
             )
         });
     }
-    let missed = |of_pass: &PassFindings| of_pass.mutants.iter().any(|mutant| !mutant.verdict.is_killed());
-    for of_pass in findings.iter().filter(|of_pass| missed(of_pass)) {
-        lines.push(format!("\n{}: not killed", of_pass.pass));
-        let mutants = of_pass.mutants.iter().filter(|mutant| !mutant.verdict.is_killed());
-        lines.extend(mutants.flat_map(mutant_lines));
-    }
-    let only = |mutant: &&Mutant| mutant.verdict.is_killed() && !mutant.without_goldens.is_killed();
-    for of_pass in findings.iter().filter(|of_pass| of_pass.mutants.iter().any(|mutant| only(&mutant))) {
-        lines.push(format!("\n{}: killed by goldens only", of_pass.pass));
-        for mutant in of_pass.mutants.iter().filter(only) {
-            lines.push(format!("  {}", place(mutant)));
-            lines.push(format!("    `{}`  {}", mutant.mutation.change, told(&mutant.without_goldens)));
-        }
+    lines
+}
+
+/// Every mutant of a pass that was not killed, or by goldens only, for people.
+pub fn missed(of_pass: &PassFindings) -> Vec<String> {
+    let survivors = || of_pass.mutants.iter().filter(|mutant| !mutant.verdict.is_killed());
+    let by_goldens =
+        || of_pass.mutants.iter().filter(|mutant| mutant.verdict.is_killed() && !mutant.without_goldens.is_killed());
+    let mut lines: Vec<String> = survivors().flat_map(mutant_lines).collect();
+    for mutant in by_goldens() {
+        lines.push(format!("  {}: killed by goldens only", place(mutant)));
+        lines.push(format!("    `{}`  {}", mutant.mutation.change, told(&mutant.without_goldens)));
     }
     lines
 }
 
 fn mutant_lines(mutant: &Mutant) -> Vec<String> {
-    let mut lines =
-        vec![format!("  {}", place(mutant)), format!("    `{}`  {}", mutant.mutation.change, told(&mutant.verdict))];
+    let mut lines = vec![
+        format!("  {}: not killed", place(mutant)),
+        format!("    `{}`  {}", mutant.mutation.change, told(&mutant.verdict)),
+    ];
     lines.extend(mutant.reason.as_ref().map(|reason| format!("    reason: {reason}")));
     lines
 }

@@ -23,7 +23,7 @@ use tyndall_plugin::{Origin, RegistryPass};
 use tyndall_render::Error;
 use tyndall_shader::{Linked, Mutation};
 
-pub use figures::{Figures, json, lines};
+pub use figures::{Figures, json, missed, table};
 pub use reasons::REASONS;
 
 use crate::options::Options;
