@@ -86,7 +86,7 @@ impl Session {
             outcome.problems.extend(orphans.into_iter().map(Problem::Orphan));
         }
         if options.for_report {
-            let times = self.times(&ready.loaded, &ready.registry, ready.plan.clone())?;
+            let times = self.times(&ready.loaded, &ready.registry, &ready.plan)?;
             outcome.passes.iter_mut().zip(times).for_each(|(pass, time)| pass.microseconds = time);
         } else {
             for port in outcome.ports.iter_mut().filter(|port| port.state == State::Passed) {

@@ -241,10 +241,6 @@ impl Session {
         frame: u32,
     ) -> Result<Rendered, Error> {
         let prints = self.prints(loaded, registry, plan, frame);
-        let key = |plan: &Plan, prints: &[Option<Fingerprint>], port: u32| -> Option<ResultKey> {
-            let planned = &plan.ports[port as usize];
-            Some((prints[planned.pass? as usize]?, planned.port.port))
-        };
         let mut rendered = Rendered { frame, ports: BTreeMap::new(), made_from: BTreeMap::new() };
         let mut missing = Vec::new();
         for port in ports {
@@ -265,14 +261,7 @@ impl Session {
         let rest = Self::plan(&loaded.graph, Roots::Ports(missing.clone()), Variation::PLAIN)?;
         let rest_prints = self.prints(loaded, registry, &rest, frame);
         let mut running = Running::new(&self.gpu, rest, loaded.scene.as_ref(), registry, &mut self.cache)?;
-        let executor = &mut running.executor;
-        for port in 0..executor.plan().ports.len() as u32 {
-            let known = key(executor.plan(), &rest_prints, port).and_then(|key| self.known(&key));
-            if let Some(data) = known.filter(|_| can_be_given(executor.plan().resource(port))) {
-                let texels = data.texels(executor.plan().resource(port));
-                executor.give(port, &texels)?;
-            }
-        }
+        self.give_known(&mut running.executor, &rest_prints)?;
         let report = running.frame(FrameOptions { frame, ..FrameOptions::default() })?;
         self.saved.spared += plan.passes.len() - report.passes_run;
         let executor = &running.executor;
@@ -306,6 +295,18 @@ impl Session {
         }
     }
 
+    /// Gives every result that is known from before, where a device takes it.
+    fn give_known(&self, executor: &mut Executor, prints: &[Option<Fingerprint>]) -> Result<(), Error> {
+        for port in 0..executor.plan().ports.len() as u32 {
+            let known = key(executor.plan(), prints, port).and_then(|key| self.known(&key));
+            if let Some(data) = known.filter(|_| can_be_given(executor.plan().resource(port))) {
+                let texels = data.texels(executor.plan().resource(port));
+                executor.give(port, &texels)?;
+            }
+        }
+        Ok(())
+    }
+
     fn keep(&mut self, key: ResultKey, data: &Arc<PortData>) {
         if let Some(substitute) = &mut self.substitute {
             substitute.results.insert(key, data.clone());
@@ -319,20 +320,24 @@ impl Session {
         self.results.insert(key, data.clone());
     }
 
-    /// GPU time of every pass of a plan by itself, in microseconds; `None` where it cannot be measured.
+    /// GPU time of every pass that these ports need by itself, in microseconds and in the order of `plan`; `None` where it
+    /// cannot be measured. Each pass runs once more, not all of them for each.
     ///
     /// # Errors
     /// What the machine cannot do.
-    pub fn times(&mut self, loaded: &Loaded, registry: &Registry, plan: Plan) -> Result<Vec<Option<f64>>, Error> {
-        let passes = plan.passes.len();
-        let mut running = Running::new(&self.gpu, plan, loaded.scene.as_ref(), registry, &mut self.cache)?;
-        running.frame(FrameOptions { everything: true, ..FrameOptions::default() })?;
-        (0..passes)
-            .map(|pass| {
-                let options = FrameOptions { everything: true, timing: Timing::Pass(pass), ..FrameOptions::default() };
-                Ok(running.frame(options)?.gpu_us)
-            })
-            .collect()
+    pub fn times(&mut self, loaded: &Loaded, registry: &Registry, plan: &Plan) -> Result<Vec<Option<f64>>, Error> {
+        let written = plan.ports.iter().filter(|port| port.pass.is_some()).map(|port| port.port);
+        let all = Self::plan(&loaded.graph, Roots::Ports(written.collect()), Variation::PLAIN)?;
+        let (passes, prints) = (0..all.passes.len(), self.prints(loaded, registry, &all, 0));
+        let mut running = Running::new(&self.gpu, all, loaded.scene.as_ref(), registry, &mut self.cache)?;
+        self.give_known(&mut running.executor, &prints)?;
+        running.frame(FrameOptions::default())?;
+        let time = |pass: usize| {
+            running.executor.forget(pass as u32);
+            let options = FrameOptions { timing: Timing::Pass(pass), ..FrameOptions::default() };
+            Ok(running.frame(options)?.gpu_us)
+        };
+        passes.map(time).collect()
     }
 
     /// Runs one pass of a frame with these inputs given, and reads its ports.
@@ -360,6 +365,12 @@ impl Session {
         let prints = vec![None; running.executor.plan().passes.len()];
         read_all(&running.executor, ports, frame, &prints)
     }
+}
+
+/// What a result is known by.
+fn key(plan: &Plan, prints: &[Option<Fingerprint>], port: u32) -> Option<ResultKey> {
+    let planned = &plan.ports[port as usize];
+    Some((prints[planned.pass? as usize]?, planned.port.port))
 }
 
 fn read_all(

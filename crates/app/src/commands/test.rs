@@ -33,6 +33,10 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Test) -> Result<(), F
             run.keep(orphaned(orphan), report.as_ref())?;
         }
     }
+    if let Some(tap) = verb.tap.as_ref().filter(|_| run.outcomes.is_empty()) {
+        terminal::line("0 passed, 0 failed");
+        return Err(Failure::Usage(format!("no test looks at a port that matches `{tap}`: ports are `pass.port`")));
+    }
     run.outcomes.sort_by(|a, b| a.path.cmp(&b.path));
     let written = write(verb, &run, report);
     let concluded = conclude(&run.outcomes, run.saved);
@@ -87,8 +91,12 @@ struct Run {
 }
 
 impl Run {
-    /// Tells what a test found, writes its page, and keeps all but the pictures.
+    /// Tells what a test found, writes its page, and keeps all but the pictures. A test that looked at nothing, as none of
+    /// its ports was asked for, has neither passed nor failed.
     fn keep(&mut self, mut outcome: Outcome, report: Option<&Report>) -> Result<(), tyndall_image::Error> {
+        if outcome.ports.is_empty() && outcome.relations.is_empty() && outcome.problems.is_empty() {
+            return Ok(());
+        }
         told(&outcome, &mut self.told);
         let start = Instant::now();
         let written = report.map_or(Ok(()), |report| report.add(&mut outcome));

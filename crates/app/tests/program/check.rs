@@ -42,7 +42,9 @@ fn scenes_and_comparisons_are_checked_for_what_they_are() {
     desk.put("s.scene.ron", "(camera: (position: (0, 1, 5), look_at: (0, 1, 0)), lihgts: [])");
     let found = mistakes(&desk, "s.scene.ron");
     assert_eq!((found[0]["code"].as_str(), found[0]["line"].as_u64()), (Some("unknown-field"), Some(1)));
-    assert_eq!(mistakes(&desk, "c.compare.ron"), found);
+    let named = &mistakes(&desk, "c.compare.ron")[0];
+    assert_eq!((&named["code"], &named["file"]), (&found[0]["code"], &found[0]["file"]));
+    assert_eq!(named["related"][0]["file"].as_str(), Some("c.compare.ron"));
     assert!(desk.ends(2, &["check", "t.test.ron"]).err.contains("`tyndall test t.test.ron`"));
 }
 

@@ -102,7 +102,11 @@ impl Records {
                 entries.into_iter().filter_map(|(key, _, node)| Some((key.to_owned(), record(&mut decoder, node)?)));
             Self(records.collect())
         });
-        if out.has_errors() { Err(out) } else { Ok(records.unwrap_or_default()) }
+        if out.has_errors() {
+            let how = "`tyndall test --bless` writes this file: restore it, or delete it and bless again";
+            return Err(out.into_iter().map(|mistake| mistake.suggest(how)).collect());
+        }
+        Ok(records.unwrap_or_default())
     }
 
     /// Writes the records of a folder.

@@ -64,7 +64,9 @@ pub(super) fn test(outcome: &Outcome, folder: &str, shown: &[Shown]) -> String {
     );
     let text = outcome.text();
     if !text.is_empty() {
-        let _ = writeln!(body, "<pre>{}</pre>", escaped(&text));
+        // Without the indentation that lines below a test's name have.
+        let text: Vec<&str> = text.lines().map(|line| line.strip_prefix("  ").unwrap_or(line)).collect();
+        let _ = writeln!(body, "<pre>{}</pre>", escaped(&text.join("\n")));
     }
     body += &graph(outcome, folder);
     for relation in &outcome.relations {
@@ -214,17 +216,17 @@ fn section(outcome: &Outcome, port: &PortOutcome, shown: &Shown, folder: &str) -
             html,
             "<div class=\"pictures\"><figure><div class=\"compare\">{}<div class=\"over\">{}</div></div>\
              <input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"expected to the left, actual to the right\"><figcaption>expected to the left, actual to the right</figcaption></figure>\
-             <figure>{}<figcaption>difference: blue within the tolerance, red beyond it, white at {:.3} times it</figcaption></figure>\
-             <figure>{}<figcaption>{}</figcaption></figure><figure>{}<figcaption>actual and expected, {} to {}</figcaption></figure></div>",
+             <figure>{}<figcaption>difference: blue within the tolerance, red beyond it, white at {} times it</figcaption></figure>\
+             <figure>{}<figcaption>{}</figcaption></figure><figure>{}<figcaption><span class=\"counts\"><span><i class=\"actual\"></i>actual</span><span><i class=\"expected\"></i>expected</span><span>{} to {}</span></span></figcaption></figure></div>",
             picture("actual"),
             picture("expected"),
             picture("difference"),
-            shown.largest,
+            short(shown.largest),
             picture("failing"),
             failing(shown),
             histogram(shown),
-            shown.range.0,
-            shown.range.1
+            short(f64::from(shown.range.0)),
+            short(f64::from(shown.range.1))
         );
     } else if shown.actual {
         let _ = writeln!(
@@ -232,14 +234,24 @@ fn section(outcome: &Outcome, port: &PortOutcome, shown: &Shown, folder: &str) -
             "<div class=\"pictures\"><figure>{}<figcaption>actual</figcaption></figure><figure>{}<figcaption>{} to {}</figcaption></figure></div>",
             picture("actual"),
             histogram(shown),
-            shown.range.0,
-            shown.range.1
+            short(f64::from(shown.range.0)),
+            short(f64::from(shown.range.1))
         );
     }
     if port.metric.is_some() {
         let _ = writeln!(html, "<p>Bless just this: <code>{}</code></p>", escaped(&outcome.bless_command(port)));
     }
     html + "</details>\n"
+}
+
+/// A number for the eye: three digits.
+fn short(number: f64) -> String {
+    let size = number.abs();
+    if size == 0.0 || (1e-3..1e5).contains(&size) {
+        let digits = if size == 0.0 { 0 } else { (2 - size.log10().floor() as i32).max(0) as usize };
+        return format!("{number:.digits$}");
+    }
+    format!("{number:.2e}")
 }
 
 /// How many pixels are beyond each multiple of the tolerance, with their colours.
@@ -268,4 +280,15 @@ fn histogram(shown: &Shown) -> String {
         }
     }
     format!("<svg class=\"histogram\" viewBox=\"0 0 192 80\" role=\"img\" aria-label=\"histogram\">{bars}</svg>")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let numbers = [0.0, 1.0, -1.0, 0.752_676_3, 12.3456, 183_921.928, 2.5e-7, 0.00123].map(short);
+        assert_eq!(numbers, ["0", "1.00", "-1.00", "0.753", "12.3", "1.84e5", "2.50e-7", "0.00123"]);
+    }
 }

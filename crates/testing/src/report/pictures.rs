@@ -90,8 +90,11 @@ impl Exposure {
     fn of(picture: &Picture) -> Self {
         let compared = picture.compared();
         let mut finite: Vec<f32> = compared.data.into_iter().filter(|value| value.is_finite()).collect();
-        finite.sort_by(f32::total_cmp);
-        let at = |part: f32| finite.get((part * (finite.len().max(1) - 1) as f32) as usize).copied().unwrap_or(0.0);
+        let mut at = |part: f32| {
+            let place = (part * finite.len().saturating_sub(1) as f32) as usize;
+            // Only what stands at the place is wanted, and not all in order.
+            if finite.is_empty() { 0.0 } else { *finite.select_nth_unstable_by(place, f32::total_cmp).1 }
+        };
         let range = match picture.class {
             Class::Display => (0.0, 1.0),
             Class::Vector => (-1.0, 1.0),
@@ -193,9 +196,15 @@ mod tests {
 
     #[test]
     fn no_two_differences_look_alike() {
-        let brightness = |excess: f64| heat(excess, 1e4).iter().sum::<f32>();
-        let rising = [0.0, 0.1, 0.5, 1.0, 3.0, 30.0, 300.0, 1e4].map(brightness);
-        assert!(rising.windows(2).all(|pair| pair[0] <= pair[1]), "{rising:?}");
+        let rises = |excesses: &[f64]| {
+            let brightness: Vec<f32> = excesses.iter().map(|excess| heat(*excess, 1e4).iter().sum()).collect();
+            assert!(brightness.windows(2).all(|pair| pair[0] < pair[1]), "{brightness:?}");
+        };
+        rises(&[0.0, 0.1, 0.5, 1.0]);
+        rises(&[1.1, 3.0, 30.0, 300.0, 1e4]);
+        // The tolerance is where blue ends and red begins.
+        let ([red, _, blue], [red_beyond, _, blue_beyond]) = (heat(1.0, 1e4), heat(1.001, 1e4));
+        assert!(blue > 3.0 * red && red_beyond > 3.0 * blue_beyond);
         assert_eq!((heat(0.0, 1e4), heat(1e4, 1e4)), ([0.0; 3], [1.0; 3]));
         assert_eq!(heat(f64::INFINITY, 1e4), [1.0, 0.0, 1.0]);
     }

@@ -85,18 +85,18 @@ impl Browser {
         let (socket, _) = tungstenite::client(format!("ws://{}{}", address.0, address.1), stream).unwrap();
         let mut browser =
             Self { process, socket, session: String::new(), calls: 0, events: Vec::new(), _profile: profile };
-        let target = browser.call("Target.createTarget", json!({ "url": "about:blank" }));
+        let target = browser.call("Target.createTarget", &json!({ "url": "about:blank" }));
         let attached =
-            browser.call("Target.attachToTarget", json!({ "targetId": target["targetId"], "flatten": true }));
+            browser.call("Target.attachToTarget", &json!({ "targetId": target["targetId"], "flatten": true }));
         browser.session = attached["sessionId"].as_str().unwrap().to_owned();
         for domain in ["Page", "Runtime", "Network", "Log"] {
-            browser.call(&format!("{domain}.enable"), json!({}));
+            browser.call(&format!("{domain}.enable"), &json!({}));
         }
         browser
     }
 
     /// Calls a method of the protocol and gives its result.
-    pub fn call(&mut self, method: &str, params: Value) -> Value {
+    pub fn call(&mut self, method: &str, params: &Value) -> Value {
         self.calls += 1;
         let id = self.calls;
         let mut message = json!({ "id": id, "method": method, "params": params });
@@ -126,7 +126,7 @@ impl Browser {
     /// Opens a page and waits until all of it is there.
     pub fn go(&mut self, page: &Path) {
         let url = format!("file://{}", page.display());
-        self.loads(|browser| drop(browser.call("Page.navigate", json!({ "url": url }))));
+        self.loads(|browser| drop(browser.call("Page.navigate", &json!({ "url": url }))));
     }
 
     /// Does what makes a page load, and waits until it has.
@@ -143,8 +143,10 @@ impl Browser {
 
     /// What an expression of JavaScript gives.
     pub fn evaluate(&mut self, expression: &str) -> Value {
-        let found = self
-            .call("Runtime.evaluate", json!({ "expression": expression, "returnByValue": true, "awaitPromise": true }));
+        let found = self.call(
+            "Runtime.evaluate",
+            &json!({ "expression": expression, "returnByValue": true, "awaitPromise": true }),
+        );
         assert!(found["exceptionDetails"].is_null(), "{expression}: {}", found["exceptionDetails"]);
         found["result"]["value"].clone()
     }
@@ -152,13 +154,13 @@ impl Browser {
     /// How wide the window is, in CSS pixels.
     pub fn width(&mut self, width: u32) {
         let size = json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": false });
-        self.call("Emulation.setDeviceMetricsOverride", size);
+        self.call("Emulation.setDeviceMetricsOverride", &size);
     }
 
     /// What the user prefers: `light` or `dark`.
     pub fn prefer(&mut self, scheme: &str) {
         let feature = json!({ "name": "prefers-color-scheme", "value": scheme });
-        self.call("Emulation.setEmulatedMedia", json!({ "features": [feature] }));
+        self.call("Emulation.setEmulatedMedia", &json!({ "features": [feature] }));
     }
 
     /// Presses a key and lets it go: `j`, `ArrowRight`, `Tab`, `Enter`.
@@ -171,10 +173,10 @@ impl Browser {
             letter => (u32::from(letter.as_bytes()[0].to_ascii_uppercase()), letter),
         };
         let down = json!({ "type": "keyDown", "key": key, "code": key, "windowsVirtualKeyCode": code, "text": text });
-        self.call("Input.dispatchKeyEvent", down);
+        self.call("Input.dispatchKeyEvent", &down);
         self.call(
             "Input.dispatchKeyEvent",
-            json!({ "type": "keyUp", "key": key, "code": key, "windowsVirtualKeyCode": code }),
+            &json!({ "type": "keyUp", "key": key, "code": key, "windowsVirtualKeyCode": code }),
         );
     }
 
@@ -182,7 +184,7 @@ impl Browser {
     pub fn drag(&mut self, from: (f64, f64), to: (f64, f64)) {
         let mut mouse = |kind: &str, (x, y): (f64, f64)| {
             let event = json!({ "type": kind, "x": x, "y": y, "button": "left", "buttons": 1, "clickCount": 1 });
-            self.call("Input.dispatchMouseEvent", event);
+            self.call("Input.dispatchMouseEvent", &event);
         };
         mouse("mousePressed", from);
         mouse("mouseMoved", to);
@@ -199,7 +201,7 @@ impl Browser {
 
     /// Writes a picture of the whole page.
     pub fn photograph(&mut self, path: &Path) {
-        let shot = self.call("Page.captureScreenshot", json!({ "format": "png", "captureBeyondViewport": true }));
+        let shot = self.call("Page.captureScreenshot", &json!({ "format": "png", "captureBeyondViewport": true }));
         let png = base64::engine::general_purpose::STANDARD.decode(shot["data"].as_str().unwrap()).unwrap();
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
         std::fs::write(path, png).unwrap();

@@ -83,7 +83,7 @@ fn the_report_opens_in_a_browser_and_its_slider_moves() {
     for width in [1280, 420] {
         browser.width(width);
         // The guilty pass is in view, however narrow the window.
-        browser.loads(|browser| drop(browser.call("Page.reload", json!({}))));
+        browser.loads(|browser| drop(browser.call("Page.reload", &json!({}))));
         let [left, _, card, _] = browser.place(".card.diverged");
         assert!(left >= 0.0 && left + card <= f64::from(width), "{left} {card} in {width}");
         let overflow = browser.evaluate("document.documentElement.scrollWidth - innerWidth");
