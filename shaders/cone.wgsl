@@ -20,11 +20,9 @@ const PI: f32 = 3.14159265359;
 const HALF_PI: f32 = 1.57079632679;
 const QUARTER_PI: f32 = 0.78539816340;
 
-// I/I_0 of a spot where the angle with its axis has this cosine: cos^N inside the cutoff, 0 outside. Beyond 90 degrees
-// from the axis only a spot with N = 0 shines.
+// I/I_0 of a spot where the angle with its axis has this cosine: cos^N inside the cutoff (90 degrees at most), 0 outside.
 fn spot_falloff(light: Light, cosine: f32) -> f32 {
-    let inside = cosine >= light.cos_cutoff && (cosine > 0.0 || light.exponent == 0.0);
-    return select(0.0, pow(max(cosine, 1e-30), light.exponent), inside);
+    return select(0.0, pow(max(cosine, 1e-30), light.exponent), cosine >= light.cos_cutoff);
 }
 
 // The lit parts of a ray, in v, each from x to y, in order.

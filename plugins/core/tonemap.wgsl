@@ -42,6 +42,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let exposed = max(textureLoad(radiance, id.xy, 0).rgb * params.exposure, vec3(0.0));
     // Beyond this every curve has reached white, and the rational ones would divide infinities.
-    let shown = clamp(tone(min(exposed, vec3(1e6))), vec3(0.0), vec3(1.0));
-    textureStore(color, id.xy, vec4(srgb_from_linear(shown), 1.0));
+    let shown = srgb_from_linear(tone(min(exposed, vec3(1e6))));
+    textureStore(color, id.xy, vec4(shown, 1.0));
 }
