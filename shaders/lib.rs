@@ -17,6 +17,7 @@ pub mod quadrature;
 pub mod ray;
 pub mod reflection;
 pub mod scene;
+pub mod shadows;
 pub mod surface_table;
 
 /// Every shared module: its name, as in `#import name`, and its text.
@@ -33,5 +34,6 @@ pub const MODULES: &[(&str, &str)] = &[
     ("ray", include_str!("ray.wgsl")),
     ("reflection", include_str!("reflection.wgsl")),
     ("scene", include_str!("scene.wgsl")),
+    ("shadows", include_str!("shadows.wgsl")),
     ("surface_table", include_str!("surface_table.wgsl")),
 ];

@@ -3,7 +3,10 @@
 use crate::phase::PhaseTable;
 use glam::DVec3;
 
-/// What passes see of a scene at one time, triangles and materials apart.
+/// A triangle, world, m.
+pub type Triangle = [DVec3; 3];
+
+/// What passes see of a scene at one time, all surfaces apart but for the shadows that they cast.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     /// Where the picture is taken from.
@@ -18,6 +21,8 @@ pub struct Scene {
     pub background: DVec3,
     /// In the order of the scene.
     pub lights: Vec<Light>,
+    /// Every triangle that casts a shadow.
+    pub casters: Vec<Triangle>,
 }
 
 /// A pinhole camera: twin of `Camera`.

@@ -17,15 +17,18 @@ pub enum SceneFeature {
     SeveralShininesses,
     /// A medium that takes light.
     Medium,
+    /// More than 96 lights.
+    ManyLights,
 }
 
 impl SceneFeature {
-    const NAMED: [(&str, Self); 5] = [
+    const NAMED: [(&str, Self); 6] = [
         ("Point", Self::Point),
         ("Spot", Self::Spot),
         ("Directional", Self::Directional),
         ("SeveralShininesses", Self::SeveralShininesses),
         ("Medium", Self::Medium),
+        ("ManyLights", Self::ManyLights),
     ];
 }
 

@@ -113,7 +113,8 @@ impl Scene {
         Frame::of(self, time)
     }
 
-    /// The names of scene data that differ between some two times. All others are the same in every frame.
+    /// The names of scene data that differ between some two times. All others are the same in every frame, but for
+    /// those of shadows, which follow from these.
     pub fn animated(&self) -> Vec<&'static str> {
         let geometry = self.instances.iter().any(|i| self.instance_moves(i));
         let flips = self.instances.iter().any(|i| self.instance_flips(i));
@@ -124,7 +125,13 @@ impl Scene {
 
     /// The scene data of a time for an image of this width/height.
     pub fn encode(&self, time: f64, aspect: f64) -> Encoded {
-        Encoded::of(self, time, aspect)
+        self.encode_for(time, aspect, &|_| true)
+    }
+
+    /// The same for those who read it: `reads` says of each name whether anybody does. Shadows, which take time, are
+    /// left empty where nobody reads them.
+    pub fn encode_for(&self, time: f64, aspect: f64, reads: &dyn Fn(&str) -> bool) -> Encoded {
+        Encoded::of(self, time, aspect, reads)
     }
 
     /// World-space box of all vertices at a time; `None` where there are none.
@@ -135,9 +142,10 @@ impl Scene {
         points.fold(None, |bounds: Option<Bounds>, p| Some(bounds.map_or(Bounds::point(p), |b| b.with(p))))
     }
 
-    /// The adjacency of each object's triangles over its vertices as they are encoded at time 0.
+    /// The adjacency of the triangles of each object, and of each of its nodes that moves by itself.
     ///
-    /// Vertex and triangle indices are those of the encoded lists. Meshes of one object are welded to each other.
+    /// Vertex and triangle indices are those of the encoded lists, windings those at time 0. Meshes that keep their places
+    /// to one another are welded to each other.
     pub fn adjacency(&self) -> Vec<Adjacency> {
         crate::encode::adjacency(self)
     }
@@ -159,6 +167,11 @@ impl Scene {
             (Placement::Node { object, node }, _) => self.node_moves(*object, Some(*node)),
         };
         moves || light.intensity.varies()
+    }
+
+    /// The node that carries an instance, where it moves within its object.
+    pub(crate) fn moving_node(&self, instance: &Instance) -> Option<usize> {
+        instance.node.filter(|node| self.objects[instance.object].nodes[*node].moves)
     }
 
     /// Whether an instance's transform differs between some two times.

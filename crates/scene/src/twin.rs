@@ -3,12 +3,12 @@
 use glam::DVec3;
 use tyndall_shaders::scene as twin;
 
-use crate::frame::{FrameLight, View};
+use crate::frame::{Frame, FrameLight, View};
 use crate::model::LightKind;
 use crate::scene::Scene;
 
 impl Scene {
-    /// What [`Scene::encode`] gives shaders, in double precision, for the twins of shaders; triangles and materials apart.
+    /// What [`Scene::encode`] gives shaders, in double precision, for the twins of shaders; of surfaces the shadows alone.
     pub fn twin(&self, time: f64, aspect: f64) -> twin::Scene {
         let frame = self.at(time);
         twin::Scene {
@@ -22,7 +22,18 @@ impl Scene {
             ambient: self.ambient,
             background: self.background,
             lights: frame.lights.iter().map(light).collect(),
+            casters: self.casters(&frame),
         }
+    }
+
+    /// The triangles of all objects that cast shadows, in world space.
+    fn casters(&self, frame: &Frame) -> Vec<twin::Triangle> {
+        let instances = self.instances.iter().zip(&frame.transforms).filter(|(instance, _)| instance.casts_shadow);
+        let triangles = instances.flat_map(|(instance, transform)| {
+            let corner = |index: u32| transform.transform_point3(instance.mesh.positions[index as usize].as_dvec3());
+            instance.mesh.triangles.iter().map(move |triangle| triangle.map(corner))
+        });
+        triangles.collect()
     }
 }
 
