@@ -59,17 +59,23 @@ struct Interval {
     width: f32,
 }
 
-// The first `way` metres of the ray: v = (r + s)/h, behind the foot h/(r - s), and v1 - v0 = x (v0 + v1)/(r0 + r1).
+// The first `way` metres of the ray.
 fn interval_of_way(beside: LightBesideRay, way: f32) -> Interval {
-    let x = clamp(way, 0.0, WAY_MAX);
+    return interval_between(beside, 0.0, way);
+}
+
+// From x0 to x1 metres of the ray: v = (r + s)/h, behind the foot h/(r - s), and v1 - v0 = (x1 - x0) (v0 + v1)/(r0 + r1).
+fn interval_between(beside: LightBesideRay, near: f32, far: f32) -> Interval {
+    let x0 = clamp(near, 0.0, WAY_MAX);
+    let x = clamp(far, 0.0, WAY_MAX) - x0;
     let h = beside.h;
-    let s0 = -beside.t;
-    let s1 = x - beside.t;
+    let s0 = x0 - beside.t;
+    let s1 = x0 + x - beside.t;
     let r0 = sqrt(h * h + s0 * s0);
     let r1 = sqrt(h * h + s1 * s1);
     let v0 = select(h, r0 + s0, s0 > 0.0) / select(r0 - s0, h, s0 > 0.0);
     let v1 = select(h, r1 + s1, s1 > 0.0) / select(r1 - s1, h, s1 > 0.0);
-    return Interval(v0, min(x * (v0 + v1) / (r0 + r1), 1e15));
+    return Interval(v0, max(min(x * (v0 + v1) / (r0 + r1), 1e15), 0.0));
 }
 
 // A piece of a ray, ready for its nodes.
@@ -246,10 +252,15 @@ struct PieceOfAirlight {
 //         if cursor.light >= lights.count { break; }
 //     }
 fn airlight(cursor: Cursor, light: Light, medium: Medium, phase: Phase, ray: Ray, way: f32, nodes: u32) -> PieceOfAirlight {
+    return airlight_between(cursor, light, medium, phase, ray, vec2<f32>(0.0, way), nodes);
+}
+
+// The same of a part of the ray, from x to y metres.
+fn airlight_between(cursor: Cursor, light: Light, medium: Medium, phase: Phase, ray: Ray, part: vec2<f32>, nodes: u32) -> PieceOfAirlight {
     let lobe = lobe_of(phase, cursor.lobe);
     let beside = light_beside_ray(light, ray);
     let depth_of_v = max(least_extinction(medium) * beside.h, 1e-30);
-    let whole = interval_of_way(beside, way);
+    let whole = interval_between(beside, part.x, part.y);
     let spot = spot_beside_ray(light, ray.direction, beside.from_light, whole.start, whole.start + whole.width, depth_of_v);
     var chunk = Chunk(Interval(whole.start, min(whole.width, DEPTH_MAX / depth_of_v)), false);
     if phase_table_count != 0u && light.kind == POINT {
@@ -265,7 +276,7 @@ fn airlight(cursor: Cursor, light: Light, medium: Medium, phase: Phase, ray: Ray
         piece = piece_of(lobe, light, spot, beside, medium, depth_of_v, chunk.interval);
     }
     let scattered = medium.scattering * light.intensity * piece_airlight(piece, nodes);
-    let radiance = select(scattered, directional_airlight(light, lobe, medium, ray, way), light.kind == DIRECTIONAL);
+    let radiance = select(scattered, directional_airlight(light, lobe, medium, ray, part), light.kind == DIRECTIONAL);
 
     let more_lobes = cursor.lobe + 1u < phase.lobe_count;
     let next_lobe = select(select(0u, cursor.lobe + 1u, more_lobes), cursor.lobe, chunk.more);
@@ -323,10 +334,12 @@ fn chunk_of_spot(spot: SpotBesideRay, exponent: f32, rho: f32, depth_of_v: f32, 
 }
 
 // Airlight of one lobe of a directional light, whose irradiance E reaches every point unattenuated:
-// albedo p E (1 - e^(-sigma_t x)), and 0 where there is no extinction.
-fn directional_airlight(light: Light, lobe: Lobe, medium: Medium, ray: Ray, way: f32) -> vec3<f32> {
+// albedo p E (e^(-sigma_t x0) - e^(-sigma_t x1)), and 0 where there is no extinction.
+fn directional_airlight(light: Light, lobe: Lobe, medium: Medium, ray: Ray, part: vec2<f32>) -> vec3<f32> {
     let albedo = medium.scattering / max(medium.extinction, vec3<f32>(1e-30));
-    return albedo * light.intensity * directional_phase(light, lobe, ray) * opacity(medium, way);
+    let near = min(part.x, ENDLESS);
+    let seen = transmittance(medium, near) * opacity(medium, max(part.y - near, 0.0));
+    return albedo * light.intensity * directional_phase(light, lobe, ray) * seen;
 }
 
 // What a lobe scatters of a directional light toward the eye, 1/sr.

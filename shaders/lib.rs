@@ -17,6 +17,7 @@ pub mod quadrature;
 pub mod ray;
 pub mod reflection;
 pub mod scene;
+pub mod shadows;
 pub mod surface_table;
 
 /// Every shared module: its name, as in `#import name`, and its text.
@@ -28,10 +29,12 @@ pub const MODULES: &[(&str, &str)] = &[
     ("height_fog", include_str!("height_fog.wgsl")),
     ("lights", include_str!("lights.wgsl")),
     ("medium", include_str!("medium.wgsl")),
+    ("occluders", include_str!("occluders.wgsl")),
     ("phase", include_str!("phase.wgsl")),
     ("quadrature", include_str!("quadrature.wgsl")),
     ("ray", include_str!("ray.wgsl")),
     ("reflection", include_str!("reflection.wgsl")),
     ("scene", include_str!("scene.wgsl")),
+    ("shadows", include_str!("shadows.wgsl")),
     ("surface_table", include_str!("surface_table.wgsl")),
 ];

@@ -8,6 +8,21 @@
 #import scene
 #import cone
 
+// Which lights reach a point, as textures hold it: 24 bits in each of four channels, which single precision holds exactly.
+const BITS_OF_CHANNEL: u32 = 24u;
+
+// What a light adds to them; nothing beyond the 96 that there is room for.
+fn bit_of_light(light: u32) -> vec4<f32> {
+    let channel = vec4<u32>(0u, 1u, 2u, 3u) == vec4<u32>(light / BITS_OF_CHANNEL);
+    return select(vec4<f32>(0.0), vec4<f32>(f32(1u << (light % BITS_OF_CHANNEL))), channel);
+}
+
+// Whether a light is among them; beyond those that there is room for all are.
+fn has_light(bits: vec4<f32>, light: u32) -> bool {
+    let bit = vec4<u32>(bit_of_light(light));
+    return all((vec4<u32>(bits) & bit) == bit);
+}
+
 struct IncidentLight {
     to_light: vec3<f32>,        // unit vector
     irradiance: vec3<f32>,      // W/m^2 on a surface that faces the light, before extinction

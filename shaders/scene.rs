@@ -3,7 +3,10 @@
 use crate::phase::PhaseTable;
 use glam::{DVec2, DVec3};
 
-/// What passes see of a scene at one time, triangles and materials apart.
+/// A triangle that casts a shadow, world, m.
+pub type Caster = [DVec3; 3];
+
+/// What passes see of a scene at one time, all surfaces apart but for the shadows that they cast.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     /// Where the picture is taken from.
@@ -18,6 +21,8 @@ pub struct Scene {
     pub background: DVec3,
     /// In the order of the scene.
     pub lights: Vec<Light>,
+    /// Every triangle that casts a shadow.
+    pub casters: Vec<Caster>,
     /// Shininess of each material that has a Phong lobe, in the order of the scene.
     pub shininesses: Vec<f64>,
     /// Lobes of surfaces and spots, each once.

@@ -11,6 +11,9 @@
 //     var<storage, read> texels: Texels;      var<storage, read> cosine_lobes: CosineLobes;
 //     var<uniform> ambient: Ambient;
 //     var<uniform> height_fog: HeightFog;     var<storage, read> phase_table: PhaseTable; (declared in phase.wgsl)
+//     var<storage, read> shadow_lights: ShadowLights;        var<storage, read> shadow_slices: ShadowSlices;
+//     var<storage, read> shadow_crossings: ShadowCrossings;  var<storage, read> shadow_edges: ShadowEdges;
+//     var<storage, read> occluder_nodes: OccluderNodes;      var<storage, read> occluder_corners: OccluderCorners;
 //
 // A list is a count, padding to 16 bytes, and at least one element, zeroed where the list is empty. The count of a list is
 // also known to the pipeline where a shader declares `override NAME_count: u32;`.
@@ -216,4 +219,100 @@ struct Textures {
 // RGBA, 8 bits each, the first in the lowest bits, sRGB.
 struct Texels {
     items: array<u32>,
+}
+
+// Where the casters' silhouettes hide a light from view rays; worked out for the passes that read it, see shadows.wgsl.
+//
+// The frame of a light has the eye at its origin, z along the axis from the light to the eye, x and y across it. Its
+// nearness kappa is 1/distance of the light from the eye, and 0 of a Directional. At a distance r from the axis a point
+// is in the direction n/r as the light sees it, n = 1 + kappa z: that falls along every view ray.
+struct ShadowLight {
+    across: vec3<f32>,          // unit vector, world: x
+    nearness: f32,              // kappa, 1/m
+    upward: vec3<f32>,          // unit vector, world: y
+    depth_at_eye: i32,          // triangles between the light and the eye
+    axis: vec3<f32>,            // unit vector, world: z
+    first_slice: u32,           // among the slices
+    slices: u32,                // number; 0 where nothing has an edge
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+}
+
+// One for each light of the scene.
+struct ShadowLights {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<ShadowLight>,
+}
+
+// Where the crossings of a slice begin; those of a light's last slice end where one more says.
+struct ShadowSlices {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<u32>,
+}
+
+// An edge in a slice, in the order of `nearest`, from the axis outward.
+struct ShadowCrossing {
+    nearest: f32,               // n/r of its points in the slice at most, 1/m
+    farthest: f32,              // n/r at least, of this and of all before it in the slice, 1/m
+    edge: u32,                  // among the edges
+}
+
+struct ShadowCrossings {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<ShadowCrossing>,
+}
+
+// Of a silhouette; it runs counter-clockwise about the axis.
+struct ShadowEdge {
+    a: vec3<f32>,               // m, frame of the light
+    step: i32,                  // triangles beyond it less those before it, as the light sees it
+    b: vec3<f32>,
+    pad: u32,
+}
+
+struct ShadowEdges {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<ShadowEdge>,
+}
+
+// A box of triangles that cast shadows, in a hierarchy; see occluders.wgsl.
+struct OccluderNode {
+    low: vec3<f32>,             // m, world
+    first: u32,                 // triangle below it: its corners are 3 first and the two after it
+    high: vec3<f32>,
+    triangles: u32,             // of a leaf their number, 4 at most; else 0, and the next node is the first below it
+    skip: u32,                  // the node that follows all below it
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+}
+
+struct OccluderNodes {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<OccluderNode>,
+}
+
+// Three for each triangle, world, m; w is 0.
+struct OccluderCorners {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<vec4<f32>>,
 }

@@ -2,6 +2,7 @@
 #import scene
 #import ray
 #import medium
+#import lights
 #import reflection
 
 override direct: bool = true;
@@ -14,6 +15,7 @@ var depth: texture_2d<f32>;
 var normal: texture_2d<f32>;
 var material: texture_2d_array<f32>;
 var table: texture_2d_array<f32>;
+var lit: texture_2d<f32>;
 var radiance: texture_storage_2d<rgba32float, write>;
 
 @compute @workgroup_size(8, 8)
@@ -29,11 +31,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let surface = Surface(ray.origin + min(way, ENDLESS) * ray.direction, lambert.xyz, phong.xyz, phong.w,
         lookup_of(toward_eye, 0u, 1.0, table),
         lookup_of(reflect(ray.direction, toward_eye), u32(lambert.w), phong.w, table));
+    let lit_bits = textureLoad(lit, id.xy, 0);
     var sum = vec3<f32>(0.0);
     // a list without lights holds one of intensity 0; why the test stands at the end: see shaders/airlight.wgsl
     var i = 0u;
     loop {
-        sum += reflected(lights.items[i], medium, surface, direct, scattered, table);
+        sum += reflected(lights.items[i], medium, surface, direct && has_light(lit_bits, i), scattered, table);
         i++;
         if i >= count { break; }
     }

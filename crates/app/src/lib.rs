@@ -27,6 +27,7 @@ pub fn shipped() -> Vec<fn() -> Plugin> {
         tyndall_surface_radiance::plugin,
         tyndall_froxel::plugin,
         tyndall_march::plugin,
+        tyndall_shadow_planes::plugin,
     ]
 }
 

@@ -20,6 +20,7 @@ fn registry() -> Registry {
         tyndall_surface_radiance::plugin(),
         tyndall_froxel::plugin(),
         tyndall_march::plugin(),
+        tyndall_shadow_planes::plugin(),
     ];
     tyndall_render::registry(plugins, &[]).unwrap()
 }

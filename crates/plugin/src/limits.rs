@@ -21,10 +21,12 @@ pub enum SceneFeature {
     TooManySpots,
     /// A medium that takes light.
     Medium,
+    /// More than 96 lights.
+    ManyLights,
 }
 
 impl SceneFeature {
-    const ALL: [Self; 7] = [
+    const ALL: [Self; 8] = [
         Self::Point,
         Self::Spot,
         Self::Directional,
@@ -32,6 +34,7 @@ impl SceneFeature {
         Self::TooManyShininesses,
         Self::TooManySpots,
         Self::Medium,
+        Self::ManyLights,
     ];
 
     /// As a manifest names it.
@@ -44,6 +47,7 @@ impl SceneFeature {
             Self::TooManyShininesses => "TooManyShininesses",
             Self::TooManySpots => "TooManySpots",
             Self::Medium => "Medium",
+            Self::ManyLights => "ManyLights",
         }
     }
 }

@@ -88,6 +88,7 @@ impl Loaded {
 fn has(scene: &Scene, feature: SceneFeature) -> bool {
     match feature {
         SceneFeature::Point => scene.lights.iter().any(|light| light.kind == LightKind::Point),
+        SceneFeature::ManyLights => scene.lights.len() > 96,
         SceneFeature::Medium => scene.medium.as_ref().is_some_and(|medium| medium.extinction.max_element() > 0.0),
         SceneFeature::Spot => scene.lights.iter().any(|light| matches!(light.kind, LightKind::Spot { .. })),
         SceneFeature::Directional => scene.lights.iter().any(|light| light.kind == LightKind::Directional),

@@ -81,12 +81,12 @@ impl Adjacency {
         Adjacency { edges: edges.collect(), degenerate }
     }
 
-    /// Adds an offset to vertex indices and puts the triangles' own indices in place of their numbers.
-    pub(crate) fn rename(&mut self, first_vertex: u32, triangles: &[u32]) {
+    /// Puts other indices in place of those of vertices and triangles.
+    pub(crate) fn rename(&mut self, vertices: &[u32], triangles: &[u32]) {
         let rename = |triangle: &mut u32| *triangle = triangles[*triangle as usize];
         self.degenerate.iter_mut().for_each(rename);
         for edge in &mut self.edges {
-            edge.vertices = edge.vertices.map(|v| v + first_vertex);
+            edge.vertices = edge.vertices.map(|vertex| vertices[vertex as usize]);
             edge.triangles.iter_mut().for_each(|side| rename(&mut side.triangle));
         }
     }

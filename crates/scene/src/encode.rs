@@ -1,5 +1,7 @@
 //! A scene as the bytes of GPU buffers, one per name of scene data (`shaders/scene.wgsl`).
 
+use std::collections::BTreeMap;
+
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use tyndall_shaders::phase;
@@ -11,7 +13,9 @@ use crate::frame::{Frame, FrameLight, View};
 use crate::gltf::encoded_wrap;
 use crate::layout;
 use crate::model::{Instance, LightKind, Material, Medium};
+use crate::occluders::{self, OCCLUDER_DATA};
 use crate::scene::Scene;
+use crate::shadows::{SHADOW_DATA, Shadows};
 
 /// The names of scene data, in the order of [`Encoded::items`].
 pub const SCENE_DATA: &[&str] = &[
@@ -30,12 +34,25 @@ pub const SCENE_DATA: &[&str] = &[
     "textures",
     "texels",
     "cosine_lobes",
+    SHADOW_DATA[0],
+    SHADOW_DATA[1],
+    SHADOW_DATA[2],
+    SHADOW_DATA[3],
+    OCCLUDER_DATA[0],
+    OCCLUDER_DATA[1],
 ];
+
+/// Whether a name is of scene data that take time to work out, and follow from others.
+pub(crate) fn is_derived(name: &str) -> bool {
+    SHADOW_DATA.contains(&name) || OCCLUDER_DATA.contains(&name)
+}
 
 const CAMERA: usize = 0;
 const LIGHTS: usize = 7;
 const VERTICES: usize = 8;
 const TRIANGLES: usize = 9;
+const SHADOWS: usize = 15;
+const OCCLUDERS: usize = 19;
 
 /// The bytes of each name of scene data.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,10 +61,13 @@ pub struct Encoded {
     pub items: Vec<(&'static str, Vec<u8>)>,
     time: f64,
     aspect: f64,
+    shadows: Option<Shadows>,
+    /// Somebody reads them.
+    occluders: bool,
 }
 
 impl Encoded {
-    pub(crate) fn of(scene: &Scene, time: f64, aspect: f64) -> Encoded {
+    pub(crate) fn of(scene: &Scene, time: f64, aspect: f64, reads: &dyn Fn(&str) -> bool) -> Encoded {
         let frame = scene.at(time);
         let medium = scene.medium.as_ref().unwrap_or(&VACUUM);
         let lobes = CosineLobes::of(&scene.materials, &frame.lights);
@@ -68,8 +88,14 @@ impl Encoded {
             texels(scene),
             list(lobes.items.iter().copied()),
         ];
+        let nothing = || list(std::iter::empty::<[u32; 16]>());
+        let bytes = bytes.into_iter().chain(std::iter::repeat_with(nothing));
         let items = SCENE_DATA.iter().copied().zip(bytes).collect();
-        Encoded { items, time, aspect }
+        let shadows = SHADOW_DATA.iter().any(|name| reads(name)).then(|| Shadows::new(scene));
+        let occluders = OCCLUDER_DATA.iter().any(|name| reads(name));
+        let mut encoded = Encoded { items, time, aspect, shadows, occluders };
+        encoded.derive(scene, &frame);
+        encoded
     }
 
     /// The bytes of a name; empty for an unknown one.
@@ -79,12 +105,17 @@ impl Encoded {
 
     /// Brings the bytes to another time and aspect of the same scene and gives the names whose bytes may have changed.
     ///
-    /// Only what moves is worked out again, in place: the buffers keep their sizes.
+    /// Only what moves is worked out again, in place: buffers keep their sizes, but for those of shadows.
     pub fn update(&mut self, scene: &Scene, time: f64, aspect: f64) -> Vec<&'static str> {
         let mut changed = if time == self.time { Vec::new() } else { scene.animated() };
         if aspect != self.aspect && !changed.contains(&"camera") {
             changed.insert(0, "camera");
         }
+        changed.retain(|name| match is_derived(name) {
+            true if OCCLUDER_DATA.contains(name) => self.occluders,
+            true => self.shadows.is_some(),
+            false => true,
+        });
         (self.time, self.aspect) = (time, aspect);
         if changed.is_empty() {
             return changed;
@@ -100,10 +131,35 @@ impl Encoded {
                     self.write(LIGHTS, size_of::<layout::Header>(), cast_slice(&lights));
                 }
                 "vertices" => self.move_vertices(scene, &frame),
-                _ => self.turn_triangles(scene, &frame),
+                "triangles" => self.turn_triangles(scene, &frame),
+                // Last, as they follow from the others.
+                _ => {}
             }
         }
+        if changed.iter().any(|name| is_derived(name)) {
+            self.derive(scene, &frame);
+        }
         changed
+    }
+
+    /// Brings what follows from the vertices as they are encoded, and is read, to them.
+    fn derive(&mut self, scene: &Scene, frame: &Frame) {
+        if self.occluders {
+            let bytes = occluders::encode(&scene.casters(frame));
+            for (item, bytes) in self.items[OCCLUDERS..].iter_mut().zip(bytes) {
+                item.1 = bytes;
+            }
+        }
+        let Some(shadows) = &mut self.shadows else { return };
+        let vertices = &self.items[VERTICES].1[size_of::<layout::Header>()..];
+        let positions = vertices.chunks_exact(size_of::<layout::Vertex>()).map(|bytes| {
+            let vertex: layout::Vertex = bytemuck::pod_read_unaligned(bytes);
+            Vec3::from_array(vertex.position).as_dvec3()
+        });
+        let bytes = shadows.encode(positions, frame);
+        for (item, bytes) in self.items[SHADOWS..].iter_mut().zip(bytes) {
+            item.1 = bytes;
+        }
     }
 
     fn write(&mut self, item: usize, offset: usize, bytes: &[u8]) {
@@ -131,7 +187,7 @@ impl Encoded {
     }
 }
 
-fn floats(v: DVec3) -> [f32; 3] {
+pub(crate) fn floats(v: DVec3) -> [f32; 3] {
     v.as_vec3().to_array()
 }
 
@@ -251,7 +307,7 @@ fn texels(scene: &Scene) -> Vec<u8> {
 }
 
 /// Header and elements; one zeroed element where there is none.
-fn list<T: Pod>(elements: impl Iterator<Item = T>) -> Vec<u8> {
+pub(crate) fn list<T: Pod>(elements: impl Iterator<Item = T>) -> Vec<u8> {
     let mut bytes = bytes_of(&layout::Header::zeroed()).to_vec();
     let mut count = 0u32;
     for element in elements {
@@ -294,7 +350,7 @@ fn world_vertices<'a>(instance: &'a Instance, transform: &DAffine3) -> impl Iter
 
 /// Corners of all triangles as indices into the encoded vertices, with the index of their instance; turned around where
 /// a transform mirrors, so that they stay counter-clockwise from outside.
-fn world_triangles(scene: &Scene, frame: &Frame) -> impl Iterator<Item = [u32; 4]> {
+pub(crate) fn world_triangles(scene: &Scene, frame: &Frame) -> impl Iterator<Item = [u32; 4]> {
     let mut first = 0;
     let instances = scene.instances.iter().zip(&frame.transforms).enumerate();
     instances.flat_map(move |(index, (instance, transform))| {
@@ -312,26 +368,48 @@ fn triangles(scene: &Scene, frame: &Frame) -> Vec<u8> {
     list(world_triangles(scene, frame))
 }
 
-/// One adjacency per object, with indices into the encoded vertices and triangles.
+/// One adjacency per group of meshes that keep their places to one another, with indices into the encoded vertices and
+/// triangles; in the order of the objects, and of an object first what its moving nodes do not carry.
 pub(crate) fn adjacency(scene: &Scene) -> Vec<Adjacency> {
     let frame = scene.at(0.0);
-    let instances = scene.instances.iter().zip(&frame.transforms);
-    let positions: Vec<Vec3> =
-        instances.flat_map(|(i, t)| world_vertices(i, t).map(|v| Vec3::from_array(v.position))).collect();
-    let mut of_objects: Vec<(Vec<u32>, Vec<[u32; 3]>)> = vec![Default::default(); scene.objects.len()];
-    for (index, [a, b, c, instance]) in world_triangles(scene, &frame).enumerate() {
-        let object = &mut of_objects[scene.instances[instance as usize].object];
-        object.0.push(index as u32);
-        object.1.push([a, b, c]);
+    let mut triangles = world_triangles(scene, &frame).enumerate();
+    let mut groups: BTreeMap<(usize, Option<usize>), Group> = BTreeMap::new();
+    let mut first_vertex = 0;
+    for (instance, transform) in scene.instances.iter().zip(&frame.transforms) {
+        let node = scene.moving_node(instance);
+        let group = groups.entry((instance.object, node)).or_default();
+        let shift = group.positions.len() as u32;
+        // What moves by itself is welded in its own space: at time 0 it may be scaled to nothing.
+        match node {
+            Some(_) => group.positions.extend(&instance.mesh.positions),
+            None => group.positions.extend(world_vertices(instance, transform).map(|v| Vec3::from_array(v.position))),
+        }
+        group.vertices.extend(first_vertex..first_vertex + instance.mesh.positions.len() as u32);
+        for (index, [a, b, c, _]) in triangles.by_ref().take(instance.mesh.triangles.len()) {
+            group.triangles.push(index as u32);
+            group.corners.push([a, b, c].map(|vertex| vertex - first_vertex + shift));
+        }
+        first_vertex += instance.mesh.positions.len() as u32;
     }
-    let of_object = |(indices, triangles): (Vec<u32>, Vec<[u32; 3]>)| {
-        // Vertices of one object follow one another; welding only those keeps objects that touch apart.
-        let corners = triangles.iter().flatten();
-        let (least, most) = (corners.clone().min().copied().unwrap_or(0), corners.max().map_or(0, |m| m + 1));
-        let local: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(|i| i - least)).collect();
-        let mut adjacency = Adjacency::of(&positions[least as usize..most as usize], &local);
-        adjacency.rename(least, &indices);
+    groups.into_values().map(Group::adjacency).collect()
+}
+
+/// Meshes that keep their places to one another.
+#[derive(Default)]
+struct Group {
+    positions: Vec<Vec3>,
+    /// Of each position: its index among the encoded vertices.
+    vertices: Vec<u32>,
+    /// Into the positions.
+    corners: Vec<[u32; 3]>,
+    /// Of each of those: its index among the encoded triangles.
+    triangles: Vec<u32>,
+}
+
+impl Group {
+    fn adjacency(self) -> Adjacency {
+        let mut adjacency = Adjacency::of(&self.positions, &self.corners);
+        adjacency.rename(&self.vertices, &self.triangles);
         adjacency
-    };
-    of_objects.into_iter().map(of_object).collect()
+    }
 }

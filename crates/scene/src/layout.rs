@@ -238,3 +238,77 @@ pub struct Texture {
     /// Wrap of u in bits 0 and 1, of v in bits 2 and 3.
     pub wrap: u32,
 }
+
+/// `OccluderNode`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct OccluderNode {
+    /// m, world.
+    pub low: [f32; 3],
+    /// The first triangle below it.
+    pub first: u32,
+    /// m, world.
+    pub high: [f32; 3],
+    /// Of a leaf its triangles, else 0.
+    pub triangles: u32,
+    /// The node that follows all below it.
+    pub skip: u32,
+    /// 0.
+    pub pad0: u32,
+    /// 0.
+    pub pad1: u32,
+    /// 0.
+    pub pad2: u32,
+}
+
+/// `ShadowLight`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct ShadowLight {
+    /// Unit vector, world.
+    pub across: [f32; 3],
+    /// 1/distance of the light from the eye, 1/m; of a directional light 0.
+    pub nearness: f32,
+    /// Unit vector, world.
+    pub upward: [f32; 3],
+    /// Triangles between the light and the eye.
+    pub depth_at_eye: i32,
+    /// Unit vector, world, from the light to the eye.
+    pub axis: [f32; 3],
+    /// Among the shadow slices.
+    pub first_slice: u32,
+    /// Number of slices; 0 where there is no edge.
+    pub slices: u32,
+    /// 0.
+    pub pad0: u32,
+    /// 0.
+    pub pad1: u32,
+    /// 0.
+    pub pad2: u32,
+}
+
+/// `ShadowCrossing`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct ShadowCrossing {
+    /// n/r at most.
+    pub nearest: f32,
+    /// n/r at least, of this and all before it in its slice.
+    pub farthest: f32,
+    /// Among the shadow edges.
+    pub edge: u32,
+}
+
+/// `ShadowEdge`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct ShadowEdge {
+    /// m, in the frame of the light.
+    pub a: [f32; 3],
+    /// Triangles beyond it less those before it.
+    pub step: i32,
+    /// m, in the frame of the light.
+    pub b: [f32; 3],
+    /// 0.
+    pub pad: u32,
+}

@@ -25,11 +25,13 @@ mod gltf;
 pub mod layout;
 mod mesh;
 pub mod model;
+mod occluders;
 mod overrides;
 mod phase_file;
 mod primitives;
 mod resolve;
 mod scene;
+mod shadows;
 mod twin;
 
 pub use self::codes::CODES;

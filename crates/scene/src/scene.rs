@@ -9,7 +9,7 @@ use tyndall_document::{Decoder, Diagnostics, Source, parse};
 use crate::adjacency::Adjacency;
 use crate::cosine_lobes;
 use crate::decode;
-use crate::encode::Encoded;
+use crate::encode::{Encoded, SCENE_DATA, is_derived};
 use crate::frame::{Bounds, Frame};
 use crate::model::{Camera, Instance, Light, LightKind, Material, Medium, Object, Placement, Texture};
 use crate::overrides::{Merged, Overrides};
@@ -130,12 +130,20 @@ impl Scene {
         let flips = self.instances.iter().any(|i| self.instance_flips(i));
         let lights = self.lights.iter().any(|l| self.light_varies(l));
         let names = [("camera", self.camera_moves()), ("lights", lights), ("vertices", geometry), ("triangles", flips)];
-        names.into_iter().filter(|n| n.1).map(|n| n.0).collect()
+        let moving: Vec<&str> = names.into_iter().filter(|n| n.1).map(|n| n.0).collect();
+        let follow = SCENE_DATA.iter().copied().filter(|name| !moving.is_empty() && is_derived(name));
+        moving.iter().copied().chain(follow).collect()
     }
 
     /// The scene data of a time for an image of this width/height.
     pub fn encode(&self, time: f64, aspect: f64) -> Encoded {
-        Encoded::of(self, time, aspect)
+        self.encode_for(time, aspect, &|_| true)
+    }
+
+    /// The same for those who read it: `reads` says of each name whether anybody does. What takes time,
+    /// shadows and occluders, is left empty where nobody reads it.
+    pub fn encode_for(&self, time: f64, aspect: f64, reads: &dyn Fn(&str) -> bool) -> Encoded {
+        Encoded::of(self, time, aspect, reads)
     }
 
     /// World-space box of all vertices at a time; `None` where there are none.
@@ -146,9 +154,10 @@ impl Scene {
         points.fold(None, |bounds: Option<Bounds>, p| Some(bounds.map_or(Bounds::point(p), |b| b.with(p))))
     }
 
-    /// The adjacency of each object's triangles over its vertices as they are encoded at time 0.
+    /// The adjacency of the triangles of each object, and of each of its nodes that moves by itself.
     ///
-    /// Vertex and triangle indices are those of the encoded lists. Meshes of one object are welded to each other.
+    /// Vertex and triangle indices are those of the encoded lists, windings those at time 0. Meshes that keep their places
+    /// to one another are welded to each other.
     pub fn adjacency(&self) -> Vec<Adjacency> {
         crate::encode::adjacency(self)
     }
@@ -170,6 +179,11 @@ impl Scene {
             (Placement::Node { object, node }, _) => self.node_moves(*object, Some(*node)),
         };
         moves || light.intensity.varies()
+    }
+
+    /// The node that carries an instance, where it moves within its object.
+    pub(crate) fn moving_node(&self, instance: &Instance) -> Option<usize> {
+        instance.node.filter(|node| self.objects[instance.object].nodes[*node].moves)
     }
 
     /// Whether an instance's transform differs between some two times.

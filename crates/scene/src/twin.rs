@@ -4,13 +4,14 @@ use glam::{DAffine3, DVec3};
 use tyndall_shaders::scene as twin;
 
 use crate::cosine_lobes::CosineLobes;
-use crate::frame::{FrameLight, View};
+use crate::frame::{Frame, FrameLight, View};
 use crate::layout::CosineLobe;
 use crate::model::{Instance, LightKind, Material, Texture, Wrap};
 use crate::scene::Scene;
 
 impl Scene {
-    /// What [`Scene::encode`] gives shaders, in double precision, for the twins of shaders; triangles apart.
+    /// What [`Scene::encode`] gives shaders, in double precision, for the twins of shaders; of surfaces the
+    /// shadows alone.
     pub fn twin(&self, time: f64, aspect: f64) -> twin::Scene {
         let frame = self.at(time);
         let shiny = self.materials.iter().filter(|material| material.specular.max_element() > 0.0);
@@ -26,9 +27,20 @@ impl Scene {
             ambient: self.ambient,
             background: self.background,
             lights: frame.lights.iter().map(light).collect(),
+            casters: self.casters(&frame),
             shininesses: shiny.map(|material| material.shininess).collect(),
             cosine_lobes: lobes.items.iter().map(cosine_lobe).collect(),
         }
+    }
+
+    /// The triangles of all objects that cast shadows, in world space.
+    pub(crate) fn casters(&self, frame: &Frame) -> Vec<twin::Caster> {
+        let instances = self.instances.iter().zip(&frame.transforms).filter(|(instance, _)| instance.casts_shadow);
+        let triangles = instances.flat_map(|(instance, transform)| {
+            let corner = |index: u32| transform.transform_point3(instance.mesh.positions[index as usize].as_dvec3());
+            instance.mesh.triangles.iter().map(move |triangle| triangle.map(corner))
+        });
+        triangles.collect()
     }
 
     /// The triangles that [`Scene::encode`] gives shaders, and what they look like, in double precision.

@@ -397,7 +397,7 @@ pub(crate) fn moment(plan: &Plan, frame: u32) -> (f64, f64) {
 /// The scene's bytes in a frame.
 fn encode(loaded: &Loaded, plan: &Plan, frame: u32) -> Option<Encoded> {
     let (time, aspect) = moment(plan, frame);
-    loaded.scene.as_ref().map(|scene| scene.encode(time, aspect))
+    loaded.scene.as_ref().map(|scene| scene.encode_for(time, aspect, &|name| plan.reads(name)))
 }
 
 /// Nothing can be copied into a rasteriser's depth buffer, and whole numbers beyond 24 bits would lose some.

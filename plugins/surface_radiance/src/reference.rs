@@ -29,7 +29,10 @@ pub(crate) fn direct(input: &ReferenceInput<'_>) -> Outputs {
 }
 
 /// What a ray meets.
+#[derive(Clone, Copy)]
 pub(crate) struct Surface {
+    /// The light that is asked for reaches it.
+    pub is_lit: bool,
     pub position: DVec3,
     /// Turned to the eye.
     pub normal: DVec3,
@@ -58,7 +61,11 @@ pub(crate) fn of_surfaces(
                 let [diffuse, phong] = [0, 1].map(|layer| texel(material, layer, x, y));
                 let surface = surface(&ray, way, texel(normal, 0, x, y), diffuse, phong);
                 let to_eye = transmittance(&scene.medium, effective_way(fog, ray.origin.y, ray.direction.y, way));
-                sum = scene.lights.iter().map(|each| light(scene, each, &surface)).sum::<DVec3>() * to_eye;
+                let lit = input.inputs.get("lit").map(|lit| texel(lit, 0, x, y));
+                let lights = scene.lights.iter().enumerate().map(|(index, each)| {
+                    light(scene, each, &Surface { is_lit: lit.is_none_or(|bits| has_light(bits, index)), ..surface })
+                });
+                sum = lights.sum::<DVec3>() * to_eye;
             }
             radiance.extend(sum.to_array().map(|channel| channel as f32));
             radiance.push(1.0);
@@ -67,11 +74,20 @@ pub(crate) fn of_surfaces(
     Ok(BTreeMap::from([("radiance", radiance)]))
 }
 
+/// Bits of a channel, as in `lights.wgsl`.
+const BITS_OF_CHANNEL: usize = 24;
+
+/// Whether a light is among those of a texel; beyond those that there is room for all are.
+fn has_light(bits: [f64; 4], light: usize) -> bool {
+    let channel = bits.get(light / BITS_OF_CHANNEL);
+    channel.is_none_or(|channel| *channel as u32 >> (light % BITS_OF_CHANNEL) & 1 == 1)
+}
+
 fn surface(ray: &Ray, way: f64, normal: [f64; 4], diffuse: [f64; 4], phong: [f64; 4]) -> Surface {
     let outward = DVec3::new(normal[0], normal[1], normal[2]);
     let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
     let mirrored = ray.direction - 2.0 * ray.direction.dot(normal) * normal;
-    Surface { position: ray.at(way), normal, mirrored, diffuse, phong }
+    Surface { is_lit: true, position: ray.at(way), normal, mirrored, diffuse, phong }
 }
 
 /// A texel of a layer; channels that are not there are 0.
@@ -93,7 +109,7 @@ pub(crate) fn rgb(texel: &[f64; 4]) -> DVec3 {
 pub(crate) fn straight(scene: &Scene, fog: &HeightFog, light: &Light, surface: &Surface) -> DVec3 {
     let arriving = incident(light, surface.position);
     let (cosine, cos_alpha) = (surface.normal.dot(arriving.to_light), surface.mirrored.dot(arriving.to_light));
-    if cosine <= 0.0 {
+    if cosine <= 0.0 || !surface.is_lit {
         return DVec3::ZERO;
     }
     let lobe = if cos_alpha > 0.0 { cos_alpha.powf(surface.phong[3]) } else { 0.0 };

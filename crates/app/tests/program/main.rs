@@ -23,6 +23,7 @@ mod plugins;
 mod render;
 mod run;
 mod settings;
+mod shadows;
 mod show;
 mod tables;
 mod watch;

@@ -217,6 +217,11 @@ impl Plan {
         self.graph.pass(self.passes[pass as usize].index).descriptor()
     }
 
+    /// Whether any pass reads the scene data of this name.
+    pub fn reads(&self, name: &str) -> bool {
+        (0..self.passes.len() as u32).any(|pass| self.descriptor(pass).scene.iter().any(|read| read == name))
+    }
+
     /// Settings of the pass at this position, one for each of the descriptor's parameters.
     pub fn params(&self, pass: u32) -> &[ParamSetting] {
         &self.graph.pass(self.passes[pass as usize].index).params

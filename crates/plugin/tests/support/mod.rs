@@ -21,6 +21,7 @@ pub fn shipped() -> Vec<Plugin> {
         tyndall_surface_radiance::plugin(),
         tyndall_froxel::plugin(),
         tyndall_march::plugin(),
+        tyndall_shadow_planes::plugin(),
     ]
 }
 

@@ -1,0 +1,100 @@
+//! What passes need to know where along a view ray a light is hidden: `shadow_lights`, `shadow_slices`,
+//! `shadow_crossings` and `shadow_edges` of `shaders/scene.wgsl`.
+//!
+//! A point of a ray is in shadow where there is a triangle between it and the light. Along the ray the number of such
+//! triangles changes where the ray passes behind an edge that has more triangles on one side than on the other, as the
+//! light sees it (or where the ray meets a triangle, and there it ends). So the silhouettes of the casters, sorted by the
+//! angle about the axis from light to eye, and the number at the eye are all that is needed, and the count is exact
+//! whatever overlaps, nests, intersects or is open. `shaders/shadows.wgsl` walks them.
+
+mod silhouette;
+mod slices;
+
+use glam::DVec3;
+
+use self::silhouette::{Casters, SilhouetteEdge, Source};
+use self::slices::{LightFrame, PlacedEdge};
+use crate::encode::list;
+use crate::frame::{Frame, FrameLight};
+use crate::layout::{ShadowCrossing, ShadowEdge, ShadowLight};
+use crate::model::LightKind;
+use crate::scene::Scene;
+
+/// The names of the scene data that are worked out here, in the order of [`Shadows::encode`].
+pub(crate) const SHADOW_DATA: [&str; 4] = ["shadow_lights", "shadow_slices", "shadow_crossings", "shadow_edges"];
+
+/// What is kept from frame to frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Shadows {
+    casters: Casters,
+    /// World.
+    positions: Vec<DVec3>,
+    lights: Vec<Lit>,
+}
+
+/// A light and the casters as it sees them: that does not change with the eye.
+#[derive(Clone, Debug, PartialEq)]
+struct Lit {
+    source: Source,
+    facing: Vec<i8>,
+    silhouette: Vec<SilhouetteEdge>,
+}
+
+impl Shadows {
+    pub(crate) fn new(scene: &Scene) -> Shadows {
+        Shadows { casters: Casters::of(scene), ..Default::default() }
+    }
+
+    /// The bytes of each of [`SHADOW_DATA`] for these vertices (world) and this frame.
+    pub(crate) fn encode(&mut self, positions: impl Iterator<Item = DVec3>, frame: &Frame) -> [Vec<u8>; 4] {
+        let positions: Vec<DVec3> = positions.collect();
+        if positions != self.positions {
+            self.positions = positions;
+            self.lights.clear();
+        }
+        let eye = frame.camera.position.as_vec3().as_dvec3();
+        self.lights.truncate(frame.lights.len());
+        let (mut lights, mut starts, mut crossings, mut edges) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        for (index, light) in frame.lights.iter().enumerate() {
+            let source = source(light);
+            if self.lights.get(index).is_none_or(|lit| lit.source != source) {
+                let facing = self.casters.facing(&self.positions, source);
+                let lit = Lit { source, silhouette: self.casters.silhouette(&facing), facing };
+                self.lights.truncate(index);
+                self.lights.push(lit);
+            }
+            lights.push(self.slices(index, eye, &mut starts, &mut crossings, &mut edges));
+        }
+        [list(lights.into_iter()), list(starts.into_iter()), list(crossings.into_iter()), list(edges.into_iter())]
+    }
+
+    fn slices(
+        &self,
+        light: usize,
+        eye: DVec3,
+        starts: &mut Vec<u32>,
+        crossings: &mut Vec<ShadowCrossing>,
+        edges: &mut Vec<ShadowEdge>,
+    ) -> ShadowLight {
+        let Lit { source, facing, silhouette } = &self.lights[light];
+        let Some(frame) = LightFrame::new(*source, eye) else { return ShadowLight::default() };
+        let places: Vec<DVec3> = self.positions.iter().map(|position| frame.place(*position)).collect();
+        let depth_at_eye = frame.depth_at_eye(&places, &self.casters.triangles, facing);
+        let placed: Vec<PlacedEdge> = silhouette.iter().filter_map(|edge| PlacedEdge::of(edge, &places)).collect();
+        let count = slices::slice_count(&placed);
+        let encoded = frame.encode(depth_at_eye, starts.len(), count as u32);
+        if count > 0 {
+            slices::sort(&frame, &placed, count, edges.len() as u32, starts, crossings);
+        }
+        edges.extend(placed.iter().map(PlacedEdge::encode));
+        encoded
+    }
+}
+
+/// As single precision has it, so that passes and this module speak of the same light.
+fn source(light: &FrameLight) -> Source {
+    match light.kind {
+        LightKind::Directional => Source::Along(light.direction.as_vec3().as_dvec3().normalize()),
+        LightKind::Point | LightKind::Spot { .. } => Source::At(light.position.as_vec3().as_dvec3()),
+    }
+}

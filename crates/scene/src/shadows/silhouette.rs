@@ -1,0 +1,113 @@
+//! Edges at which a shadow begins or ends, as a light sees them.
+
+use glam::DVec3;
+
+use crate::adjacency::Adjacency;
+use crate::scene::Scene;
+
+/// A triangle that a light sees at less than this angle, rad, is transparent to it. A lamp on a surface is in the plane of
+/// its triangles but for a rounding error, which must not decide whether it lights a room.
+const EDGE_ON: f64 = 1e-6;
+
+/// Where light comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Source {
+    /// A point, m.
+    At(DVec3),
+    /// The way light travels everywhere, a unit vector.
+    Along(DVec3),
+}
+
+/// An edge of the casters at which the number of triangles between the light and what is behind changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SilhouetteEdge {
+    /// Its vertices, which edges share.
+    pub vertices: [u32; 2],
+    /// Triangles to the left of the way from the first vertex to the second as the light sees it, less those to the right.
+    pub excess: i32,
+}
+
+/// The triangles that cast shadows, and their edges. It depends on the meshes alone, not on where anything is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Casters {
+    /// Vertex indices. Which of them come first does not change with the time, as `sides` refer to it.
+    pub triangles: Vec<[u32; 3]>,
+    edges: Vec<Edge>,
+    sides: Vec<Side>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Edge {
+    vertices: [u32; 2],
+    /// Into the sides.
+    first_side: u32,
+}
+
+/// A triangle at an edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Side {
+    triangle: u32,
+    forward: bool,
+}
+
+impl Casters {
+    /// Of a scene's objects that cast shadows. Triangles with two corners at one position are left out.
+    pub(crate) fn of(scene: &Scene) -> Casters {
+        let triangles: Vec<[u32; 4]> = crate::encode::world_triangles(scene, &scene.at(0.0)).collect();
+        let casts = |triangle: u32| scene.instances[triangles[triangle as usize][3] as usize].casts_shadow;
+        let corners = |triangle: u32| triangles[triangle as usize].first_chunk().copied().unwrap_or_default();
+        let mut casters = Casters::default();
+        let mut renamed = vec![u32::MAX; triangles.len()];
+        for Adjacency { edges, .. } in scene.adjacency() {
+            for edge in edges {
+                let sides = edge.triangles.iter().filter(|side| casts(side.triangle));
+                let first_side = casters.sides.len() as u32;
+                for side in sides {
+                    let name = &mut renamed[side.triangle as usize];
+                    if *name == u32::MAX {
+                        *name = casters.triangles.len() as u32;
+                        casters.triangles.push(corners(side.triangle));
+                    }
+                    casters.sides.push(Side { triangle: *name, forward: side.forward });
+                }
+                if casters.sides.len() as u32 > first_side {
+                    casters.edges.push(Edge { vertices: edge.vertices, first_side });
+                }
+            }
+        }
+        casters
+    }
+
+    /// Which way each triangle faces: 1 where its corners run counter-clockwise as the light sees them, -1 clockwise, and
+    /// 0 where the light sees it edge on, where it has no area, or where a corner is no number.
+    pub(crate) fn facing(&self, positions: &[DVec3], source: Source) -> Vec<i8> {
+        let facing = |triangle: &[u32; 3]| {
+            let [a, b, c] = triangle.map(|vertex| positions[vertex as usize]);
+            let normal = (b - a).cross(c - a);
+            let (height, distance) = match source {
+                Source::At(light) => {
+                    let [a, b, c] = [a - light, b - light, c - light];
+                    (-normal.dot(a), a.length().max(b.length()).max(c.length()))
+                }
+                Source::Along(direction) => (-normal.dot(direction), 1.0),
+            };
+            let clear = height.abs() > EDGE_ON * distance * normal.length();
+            if clear && height.is_finite() { height.signum() as i8 } else { 0 }
+        };
+        self.triangles.iter().map(facing).collect()
+    }
+
+    /// The silhouette: of a closed mesh the edges between a triangle that faces the light and one that does not; of any
+    /// mesh those that have more triangles on one side than on the other as the light sees them: open edges, folds, and
+    /// edges of three triangles and more (Kim, Kim and Turk 2008 weight edges alike). It takes no winding for granted.
+    pub(crate) fn silhouette(&self, facing: &[i8]) -> Vec<SilhouetteEdge> {
+        let ends = self.edges.iter().skip(1).map(|edge| edge.first_side).chain([self.sides.len() as u32]);
+        let excess = |(edge, end): (&Edge, u32)| {
+            let sides = &self.sides[edge.first_side as usize..end as usize];
+            let side = |side: &Side| i32::from(facing[side.triangle as usize]) * if side.forward { 1 } else { -1 };
+            let excess = sides.iter().map(side).sum();
+            (excess != 0).then_some(SilhouetteEdge { vertices: edge.vertices, excess })
+        };
+        self.edges.iter().zip(ends).filter_map(excess).collect()
+    }
+}

@@ -1,0 +1,11 @@
+//! The plugin `shadow_planes`: airlight between the shadow planes that a view ray crosses.
+
+mod reference;
+
+use tyndall_plugin::{Plugin, folder};
+
+/// The plugin.
+pub fn plugin() -> Plugin {
+    Plugin::new("shadow_planes", folder!("shadow_planes": "plugin.ron", "exact.wgsl"))
+        .reference("shadow_planes.exact", reference::exact)
+}

@@ -1,0 +1,111 @@
+//! The parts of a ray that a light reaches, by brute force: twin of `shadows.wgsl`, and independent of silhouettes.
+//!
+//! The shadow of a triangle is convex: the space behind it within the pyramid from the light. So each triangle shadows one
+//! interval of a ray, and what is left of the ray beside all intervals is lit.
+
+use crate::ray::Ray;
+use crate::scene::{Caster, Light};
+use glam::DVec3;
+
+/// Where a light's rays come from.
+#[derive(Clone, Copy)]
+enum Source {
+    At(DVec3),
+    Along(DVec3),
+}
+
+/// The lit intervals of the first `way` metres of a ray, which may be infinite, in order, m.
+pub fn lit_intervals(light: &Light, casters: &[Caster], ray: &Ray, way: f64) -> Vec<[f64; 2]> {
+    let source = match *light {
+        Light::Point { position, .. } | Light::Spot { position, .. } => Source::At(position),
+        Light::Directional { direction, .. } => Source::Along(direction),
+    };
+    let mut dark: Vec<[f64; 2]> =
+        casters.iter().filter_map(|triangle| shadow(source, triangle, ray)).filter(|[from, _]| *from < way).collect();
+    dark.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut lit = Vec::new();
+    let mut from = 0.0;
+    for [start, end] in dark {
+        if start > from {
+            lit.push([from, start]);
+        }
+        from = from.max(end);
+    }
+    if from < way {
+        lit.push([from, way]);
+    }
+    lit
+}
+
+/// Whether the light reaches the point at the end of the ray's first `way` metres, seen from the eye's side.
+pub fn is_lit(light: &Light, casters: &[Caster], ray: &Ray, way: f64) -> bool {
+    lit_intervals(light, casters, ray, way).last().is_some_and(|[_, end]| *end >= way * (1.0 - 1e-5))
+}
+
+/// The part of a ray in the shadow of a triangle. One that the light sees edge on has none.
+fn shadow(source: Source, &[a, b, c]: &Caster, ray: &Ray) -> Option<[f64; 2]> {
+    let normal = (b - a).cross(c - a);
+    let away = match source {
+        Source::At(light) => normal.dot(a - light),
+        Source::Along(direction) => normal.dot(direction),
+    };
+    if away == 0.0 {
+        return None;
+    }
+    let side = |from: DVec3, to: DVec3, third: DVec3| {
+        let plane = match source {
+            Source::At(light) => (from - light).cross(to - light),
+            Source::Along(direction) => (to - from).cross(direction),
+        };
+        (plane * plane.dot(third - from).signum(), from)
+    };
+    let planes = [side(a, b, c), side(b, c, a), side(c, a, b), (normal * away.signum(), a)];
+    let (mut start, mut end) = (0.0_f64, f64::INFINITY);
+    for (inward, point) in planes {
+        let (height, rise) = (inward.dot(ray.origin - point), inward.dot(ray.direction));
+        if rise == 0.0 {
+            if height < 0.0 {
+                return None;
+            }
+        } else if rise > 0.0 {
+            start = start.max(-height / rise);
+        } else {
+            end = end.min(-height / rise);
+        }
+    }
+    (start < end).then_some([start, end])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn point(position: DVec3) -> Light {
+        Light::Point { position, intensity: DVec3::ONE, radius: 0.0 }
+    }
+
+    fn square(half: f64, y: f64) -> [Caster; 2] {
+        let corner = |x: f64, z: f64| DVec3::new(x * half, y, z * half);
+        let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+        [[corners[0], corners[1], corners[2]], [corners[0], corners[2], corners[3]]]
+    }
+
+    /// A square of half-width 1 at half the height of a lamp shadows a square of half-width 2 on the ground.
+    #[test]
+    fn shadow_of_a_square() {
+        let ray = Ray { origin: DVec3::new(-5.0, 0.0, 0.3), direction: DVec3::X };
+        let of = |light: &Light, way: f64| lit_intervals(light, &square(1.0, 2.0), &ray, way);
+        let lamp = point(DVec3::new(0.0, 4.0, 0.0));
+        let close = |found: &[[f64; 2]], expected: &[[f64; 2]]| {
+            let difference = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).abs().max((a[1] - b[1]).abs());
+            found.len() == expected.len() && found.iter().zip(expected).all(|pair| difference(pair) < 1e-12)
+        };
+        assert!(close(&of(&lamp, 9.0), &[[0.0, 3.0], [7.0, 9.0]]));
+        assert_eq!(of(&lamp, f64::INFINITY)[1][1], f64::INFINITY);
+        let sun = Light::Directional { direction: DVec3::NEG_Y, irradiance: DVec3::ONE };
+        assert!(close(&of(&sun, 5.5), &[[0.0, 4.0]]));
+        // Above the square nothing is dark.
+        assert_eq!(of(&point(DVec3::new(0.0, 1.0, 0.0)), 9.0), [[0.0, 9.0]]);
+        assert!(is_lit(&lamp, &square(1.0, 2.0), &ray, 2.9) && !is_lit(&lamp, &square(1.0, 2.0), &ray, 3.1));
+    }
+}
