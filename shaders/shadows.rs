@@ -39,7 +39,7 @@ pub fn lit_intervals(light: &Light, casters: &[Triangle], ray: &Ray, way: f64) -
 
 /// Whether the light reaches the point at the end of the ray's first `way` metres, seen from the eye's side.
 pub fn is_lit(light: &Light, casters: &[Triangle], ray: &Ray, way: f64) -> bool {
-    lit_intervals(light, casters, ray, way).last().is_some_and(|[_, end]| *end >= way * (1.0 - 1e-9))
+    lit_intervals(light, casters, ray, way).last().is_some_and(|[_, end]| *end >= way * (1.0 - 1e-5))
 }
 
 /// The part of a ray in the shadow of a triangle. One that the light sees edge on has none.

@@ -125,7 +125,8 @@ fn method<'f>(
 fn plan(loaded: &Loaded, roots: Roots, out: &mut Diagnostics) -> Option<Plan> {
     let mut options = PlanOptions::new(loaded.graph.size);
     options.roots = roots;
-    let animated = ["camera", "lights"].map(str::to_owned).into();
+    let moving = ["camera", "lights", "shadow_lights", "shadow_slices", "shadow_crossings", "shadow_edges"];
+    let animated = moving.map(str::to_owned).into();
     options.keep = Keep::Edges { live: BTreeSet::new(), animated };
     tyndall_graph::plan(&loaded.graph, &options).map_err(|mistakes| out.extend(mistakes)).ok()
 }

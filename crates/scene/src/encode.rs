@@ -99,6 +99,7 @@ impl Encoded {
         if aspect != self.aspect && !changed.contains(&"camera") {
             changed.insert(0, "camera");
         }
+        changed.retain(|name| self.shadows.is_some() || !SHADOW_DATA.contains(name));
         (self.time, self.aspect) = (time, aspect);
         if changed.is_empty() {
             return changed;
@@ -114,12 +115,13 @@ impl Encoded {
                     self.write(LIGHTS, size_of::<layout::Header>(), cast_slice(&lights));
                 }
                 "vertices" => self.move_vertices(scene, &frame),
-                _ => self.turn_triangles(scene, &frame),
+                "triangles" => self.turn_triangles(scene, &frame),
+                // Last, as they follow from the others.
+                _ => {}
             }
         }
-        if self.shadows.is_some() {
+        if changed.contains(&SHADOW_DATA[0]) {
             self.cast_shadows(&frame);
-            changed.extend(SHADOW_DATA);
         }
         changed
     }

@@ -8,7 +8,7 @@
 //! let (scene, warnings) = Scene::load(Path::new("graphs/scenes/pavilion.scene.ron"), &Overrides::new())?;
 //! let mut encoded = scene.encode(0.0, 16.0 / 9.0);
 //! for (name, bytes) in &encoded.items { /* upload */ }
-//! let changed = encoded.update(&scene, 1.0 / 24.0, 16.0 / 9.0); // of `scene.animated()`, and shadows
+//! let changed = encoded.update(&scene, 1.0 / 24.0, 16.0 / 9.0); // a subset of `scene.animated()`
 //! # Ok(()) }
 //! ```
 //!

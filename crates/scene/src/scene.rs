@@ -13,6 +13,7 @@ use crate::frame::{Bounds, Frame};
 use crate::model::{Camera, Instance, Light, LightKind, Material, Medium, Object, Placement, Texture};
 use crate::overrides::{Merged, Overrides};
 use crate::resolve;
+use crate::shadows::SHADOW_DATA;
 use tyndall_shaders::scene::HeightFog;
 
 /// Everything that a scene file and the files named in it say, checked and ready to be encoded for any time.
@@ -113,14 +114,15 @@ impl Scene {
         Frame::of(self, time)
     }
 
-    /// The names of scene data that differ between some two times. All others are the same in every frame, but for
-    /// those of shadows, which follow from these.
+    /// The names of scene data that differ between some two times. All others are the same in every frame.
     pub fn animated(&self) -> Vec<&'static str> {
         let geometry = self.instances.iter().any(|i| self.instance_moves(i));
         let flips = self.instances.iter().any(|i| self.instance_flips(i));
         let lights = self.lights.iter().any(|l| self.light_varies(l));
         let names = [("camera", self.camera_moves()), ("lights", lights), ("vertices", geometry), ("triangles", flips)];
-        names.into_iter().filter(|n| n.1).map(|n| n.0).collect()
+        let moving: Vec<&str> = names.into_iter().filter(|n| n.1).map(|n| n.0).collect();
+        let shadows = SHADOW_DATA.iter().copied().filter(|_| !moving.is_empty());
+        moving.iter().copied().chain(shadows).collect()
     }
 
     /// The scene data of a time for an image of this width/height.

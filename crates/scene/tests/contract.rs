@@ -167,10 +167,12 @@ fn keys_move_what_they_should_and_nothing_else() {
           lights: [Point(position: (0, 0, 0), intensity: Keys([(1, (0, 0, 0)), (2, (8, 8, 8))]))],
           objects: [(mesh: Box(size: (1, 1, 1))), (mesh: Plane(size: (1, 1)), translation: Keys([(0, (0, 0, 0)), (1, (0, 1, 0))]))])",
     );
-    assert_eq!(scene.animated(), ["camera", "lights", "vertices"]);
+    let shadows = ["shadow_lights", "shadow_slices", "shadow_crossings", "shadow_edges"];
+    let moving: Vec<&str> = ["camera", "lights", "vertices"].into_iter().chain(shadows).collect();
+    assert_eq!(scene.animated(), moving);
     let mut encoded = scene.encode(0.0, 1.0);
     let before = encoded.clone();
-    assert_eq!(encoded.update(&scene, 1.5, 1.0), ["camera", "lights", "vertices"]);
+    assert_eq!(encoded.update(&scene, 1.5, 1.0), moving);
     assert_eq!(encoded, scene.encode(1.5, 1.0));
     assert_ne!(encoded, before);
     let camera: layout::Camera = *bytemuck::from_bytes(encoded.bytes("camera"));
@@ -181,8 +183,14 @@ fn keys_move_what_they_should_and_nothing_else() {
     assert_eq!(encoded.bytes("vertices")[16..16 + 24 * 32], before.bytes("vertices")[16..16 + 24 * 32]);
     assert!(encoded.update(&scene, 1.5, 1.0).is_empty());
     assert_eq!(encoded.update(&scene, 1.5, 2.0), ["camera"]);
-    assert_eq!(encoded.update(&scene, 0.0, 1.0), ["camera", "lights", "vertices"]);
+    assert_eq!(encoded.update(&scene, 0.0, 1.0), moving);
     assert_eq!(encoded, before);
+    // Those that nobody reads are not worked out.
+    let mut unread = scene.encode_for(0.0, 1.0, &|name| name == "vertices");
+    assert_eq!(unread.update(&scene, 1.5, 1.0), moving[..3]);
+    assert!(
+        shadows.iter().all(|name| unread.bytes(name)[..4] == [0; 4]) && encoded.bytes(shadows[0])[..4] == [1, 0, 0, 0]
+    );
 }
 
 #[test]

@@ -22,6 +22,7 @@ mod plugins;
 mod render;
 mod run;
 mod settings;
+mod shadows;
 mod show;
 mod tables;
 mod watch;

@@ -243,7 +243,8 @@ pub(crate) fn sort(
             continue;
         };
         let width = 4.0 / slices as f64;
-        let [first, last] = [angles.0 - ANGLE_SLACK, angles.1 + ANGLE_SLACK].map(|angle| (angle / width).floor() as i64);
+        let [first, last] =
+            [angles.0 - ANGLE_SLACK, angles.1 + ANGLE_SLACK].map(|angle| (angle / width).floor() as i64);
         for slice in first..=last.min(first + slices as i64 - 1) {
             let within = (slice as f64 * width, (slice + 1) as f64 * width);
             let (nearest, farthest) = edge.bounds(frame, angles, within);
