@@ -29,6 +29,7 @@ pub const MODULES: &[(&str, &str)] = &[
     ("height_fog", include_str!("height_fog.wgsl")),
     ("lights", include_str!("lights.wgsl")),
     ("medium", include_str!("medium.wgsl")),
+    ("occluders", include_str!("occluders.wgsl")),
     ("phase", include_str!("phase.wgsl")),
     ("quadrature", include_str!("quadrature.wgsl")),
     ("ray", include_str!("ray.wgsl")),

@@ -13,6 +13,7 @@
 //     var<uniform> height_fog: HeightFog;     var<storage, read> phase_table: PhaseTable; (declared in phase.wgsl)
 //     var<storage, read> shadow_lights: ShadowLights;        var<storage, read> shadow_slices: ShadowSlices;
 //     var<storage, read> shadow_crossings: ShadowCrossings;  var<storage, read> shadow_edges: ShadowEdges;
+//     var<storage, read> occluder_nodes: OccluderNodes;      var<storage, read> occluder_corners: OccluderCorners;
 //
 // A list is a count, padding to 16 bytes, and at least one element, zeroed where the list is empty. The count of a list is
 // also known to the pipeline where a shader declares `override NAME_count: u32;`.
@@ -285,4 +286,33 @@ struct ShadowEdges {
     pad1: u32,
     pad2: u32,
     items: array<ShadowEdge>,
+}
+
+// A box of triangles that cast shadows, in a hierarchy; see occluders.wgsl.
+struct OccluderNode {
+    low: vec3<f32>,             // m, world
+    first: u32,                 // triangle below it: its corners are 3 first and the two after it
+    high: vec3<f32>,
+    triangles: u32,             // of a leaf their number, 4 at most; else 0, and the next node is the first below it
+    skip: u32,                  // the node that follows all below it
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+}
+
+struct OccluderNodes {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<OccluderNode>,
+}
+
+// Three for each triangle, world, m; w is 0.
+struct OccluderCorners {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<vec4<f32>>,
 }

@@ -5,6 +5,8 @@
 //   w               sin^2 of half the scattering angle, (r + s)/(2 r), known to 1e-7: of lobes with g above 0.99 the peak
 //                   is off by 0.3 % and more, as 1e-7 is no longer small beside ((1-g)/(1+g))^2
 //
+// Where shadows are asked for, a ray at the triangles says of every point whether the light reaches it.
+//
 // L = sum over the steps of sigma_s p(w) I/r^2 e^(-sigma_t (x + r)) dx, to the surface or to MARCH_DEPTH.
 #import scene
 #import ray
@@ -12,11 +14,13 @@
 #import phase
 #import cone
 #import airlight
+#import occluders
 
 // Optical depth along the ray, of the channel of least extinction, at which the march ends.
 const MARCH_DEPTH: f32 = 16.0;
 
 override steps: u32 = 256;
+override shadows: bool = false;
 
 var<uniform> camera: Camera;
 var<uniform> medium: Medium;
@@ -42,39 +46,54 @@ fn sample_at(x: f32, beside: LightBesideRay, scattering: Phase) -> Sample {
     return Sample(phase_at(scattering, w) * inverse_r * inverse_r, x + r, s * inverse_r, beside.h * inverse_r);
 }
 
-fn march_point(light: Light, beside: LightBesideRay, scattering: Phase, way: f32) -> vec3<f32> {
+// Of the steps from this one on those that the light does not reach, as bits; looked up anew for every 32nd step.
+fn hidden_steps(known: u32, light: Light, ray: Ray, step: u32, dx: f32) -> u32 {
+    var hidden = known >> 1u;
+    if shadows && step % 32u == 0u {
+        hidden = hidden_points(light, ray, (f32(step) + 0.5) * dx, dx);
+    }
+    return hidden;
+}
+
+fn march_point(light: Light, beside: LightBesideRay, scattering: Phase, ray: Ray, way: f32) -> vec3<f32> {
     let dx = way / f32(steps);
     let count = select(0u, steps, light.kind == POINT);
     var sum = vec3<f32>(0.0);
+    var hidden = 0u;
     for (var i = 0u; i < count; i++) {
+        hidden = hidden_steps(hidden, light, ray, i, dx);
         let point = sample_at((f32(i) + 0.5) * dx, beside, scattering);
-        sum += point.density * exp(-medium.extinction * point.path);
+        sum += f32(~hidden & 1u) * point.density * exp(-medium.extinction * point.path);
     }
     return medium.scattering * light.intensity * sum * dx;
 }
 
-fn march_spot(light: Light, beside: LightBesideRay, scattering: Phase, direction: vec3<f32>, way: f32) -> vec3<f32> {
+fn march_spot(light: Light, beside: LightBesideRay, scattering: Phase, ray: Ray, way: f32) -> vec3<f32> {
     let dx = way / f32(steps);
     let count = select(0u, steps, light.kind == SPOT);
-    let along = dot(light.direction, direction);
+    let along = dot(light.direction, ray.direction);
     let across = dot(light.direction, beside.from_light);
     var sum = vec3<f32>(0.0);
+    var hidden = 0u;
     for (var i = 0u; i < count; i++) {
+        hidden = hidden_steps(hidden, light, ray, i, dx);
         let point = sample_at((f32(i) + 0.5) * dx, beside, scattering);
         let falloff = spot_falloff(light, along * point.sine + across * point.cosine);
-        sum += point.density * falloff * exp(-medium.extinction * point.path);
+        sum += f32(~hidden & 1u) * point.density * falloff * exp(-medium.extinction * point.path);
     }
     return medium.scattering * light.intensity * sum * dx;
 }
 
 // The irradiance of a directional light reaches every point unattenuated.
-fn march_directional(light: Light, scattering: Phase, direction: vec3<f32>, way: f32) -> vec3<f32> {
-    let half_sum = 0.5 * (light.direction + direction);
+fn march_directional(light: Light, scattering: Phase, ray: Ray, way: f32) -> vec3<f32> {
+    let half_sum = 0.5 * (light.direction + ray.direction);
     let dx = way / f32(steps);
     let count = select(0u, steps, light.kind == DIRECTIONAL);
     var sum = vec3<f32>(0.0);
+    var hidden = 0u;
     for (var i = 0u; i < count; i++) {
-        sum += exp(-medium.extinction * ((f32(i) + 0.5) * dx));
+        hidden = hidden_steps(hidden, light, ray, i, dx);
+        sum += f32(~hidden & 1u) * exp(-medium.extinction * ((f32(i) + 0.5) * dx));
     }
     return medium.scattering * light.intensity * phase_at(scattering, dot(half_sum, half_sum)) * sum * dx;
 }
@@ -94,9 +113,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     loop {
         let light = lights.items[i];
         let beside = light_beside_ray(light, ray);
-        sum += march_point(light, beside, scattering, way);
-        sum += march_spot(light, beside, scattering, ray.direction, way);
-        sum += march_directional(light, scattering, ray.direction, way);
+        sum += march_point(light, beside, scattering, ray, way);
+        sum += march_spot(light, beside, scattering, ray, way);
+        sum += march_directional(light, scattering, ray, way);
         i++;
         if i >= count { break; }
     }

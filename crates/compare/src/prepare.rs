@@ -125,6 +125,7 @@ fn method<'f>(
 fn plan(loaded: &Loaded, roots: Roots, out: &mut Diagnostics) -> Option<Plan> {
     let mut options = PlanOptions::new(loaded.graph.size);
     options.roots = roots;
+    // What shadows of moving lights are made of moves with them.
     let moving = ["camera", "lights", "shadow_lights", "shadow_slices", "shadow_crossings", "shadow_edges"];
     let animated = moving.map(str::to_owned).into();
     options.keep = Keep::Edges { live: BTreeSet::new(), animated };

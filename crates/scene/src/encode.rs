@@ -13,6 +13,7 @@ use crate::frame::{Frame, FrameLight, View};
 use crate::gltf::encoded_wrap;
 use crate::layout;
 use crate::model::{Instance, LightKind, Material, Medium};
+use crate::occluders::{self, OCCLUDER_DATA};
 use crate::scene::Scene;
 use crate::shadows::{SHADOW_DATA, Shadows};
 
@@ -37,13 +38,21 @@ pub const SCENE_DATA: &[&str] = &[
     SHADOW_DATA[1],
     SHADOW_DATA[2],
     SHADOW_DATA[3],
+    OCCLUDER_DATA[0],
+    OCCLUDER_DATA[1],
 ];
+
+/// Whether a name is of scene data that take time to work out, and follow from others.
+pub(crate) fn is_derived(name: &str) -> bool {
+    SHADOW_DATA.contains(&name) || OCCLUDER_DATA.contains(&name)
+}
 
 const CAMERA: usize = 0;
 const LIGHTS: usize = 7;
 const VERTICES: usize = 8;
 const TRIANGLES: usize = 9;
 const SHADOWS: usize = 15;
+const OCCLUDERS: usize = 19;
 
 /// The bytes of each name of scene data.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +62,8 @@ pub struct Encoded {
     time: f64,
     aspect: f64,
     shadows: Option<Shadows>,
+    /// Somebody reads them.
+    occluders: bool,
 }
 
 impl Encoded {
@@ -81,8 +92,9 @@ impl Encoded {
         let bytes = bytes.into_iter().chain(std::iter::repeat_with(nothing));
         let items = SCENE_DATA.iter().copied().zip(bytes).collect();
         let shadows = SHADOW_DATA.iter().any(|name| reads(name)).then(|| Shadows::new(scene));
-        let mut encoded = Encoded { items, time, aspect, shadows };
-        encoded.cast_shadows(&frame);
+        let occluders = OCCLUDER_DATA.iter().any(|name| reads(name));
+        let mut encoded = Encoded { items, time, aspect, shadows, occluders };
+        encoded.derive(scene, &frame);
         encoded
     }
 
@@ -99,7 +111,11 @@ impl Encoded {
         if aspect != self.aspect && !changed.contains(&"camera") {
             changed.insert(0, "camera");
         }
-        changed.retain(|name| self.shadows.is_some() || !SHADOW_DATA.contains(name));
+        changed.retain(|name| match is_derived(name) {
+            true if OCCLUDER_DATA.contains(name) => self.occluders,
+            true => self.shadows.is_some(),
+            false => true,
+        });
         (self.time, self.aspect) = (time, aspect);
         if changed.is_empty() {
             return changed;
@@ -120,14 +136,20 @@ impl Encoded {
                 _ => {}
             }
         }
-        if changed.contains(&SHADOW_DATA[0]) {
-            self.cast_shadows(&frame);
+        if changed.iter().any(|name| is_derived(name)) {
+            self.derive(scene, &frame);
         }
         changed
     }
 
-    /// Brings the shadow data, where there are any, to the vertices as they are encoded.
-    fn cast_shadows(&mut self, frame: &Frame) {
+    /// Brings what follows from the vertices as they are encoded, and is read, to them.
+    fn derive(&mut self, scene: &Scene, frame: &Frame) {
+        if self.occluders {
+            let bytes = occluders::encode(&scene.casters(frame));
+            for (item, bytes) in self.items[OCCLUDERS..].iter_mut().zip(bytes) {
+                item.1 = bytes;
+            }
+        }
         let Some(shadows) = &mut self.shadows else { return };
         let vertices = &self.items[VERTICES].1[size_of::<layout::Header>()..];
         let positions = vertices.chunks_exact(size_of::<layout::Vertex>()).map(|bytes| {
@@ -349,9 +371,9 @@ fn triangles(scene: &Scene, frame: &Frame) -> Vec<u8> {
 /// triangles; in the order of the objects, and of an object first what its moving nodes do not carry.
 pub(crate) fn adjacency(scene: &Scene) -> Vec<Adjacency> {
     let frame = scene.at(0.0);
-    let triangles: Vec<[u32; 4]> = world_triangles(scene, &frame).collect();
+    let mut triangles = world_triangles(scene, &frame).enumerate();
     let mut groups: BTreeMap<(usize, Option<usize>), Group> = BTreeMap::new();
-    let (mut first_vertex, mut first_triangle) = (0, 0);
+    let mut first_vertex = 0;
     for (instance, transform) in scene.instances.iter().zip(&frame.transforms) {
         let node = scene.moving_node(instance);
         let group = groups.entry((instance.object, node)).or_default();
@@ -362,13 +384,11 @@ pub(crate) fn adjacency(scene: &Scene) -> Vec<Adjacency> {
             None => group.positions.extend(world_vertices(instance, transform).map(|v| Vec3::from_array(v.position))),
         }
         group.vertices.extend(first_vertex..first_vertex + instance.mesh.positions.len() as u32);
-        for index in first_triangle..first_triangle + instance.mesh.triangles.len() {
-            let [a, b, c, _] = triangles[index];
+        for (index, [a, b, c, _]) in triangles.by_ref().take(instance.mesh.triangles.len()) {
             group.triangles.push(index as u32);
             group.corners.push([a, b, c].map(|vertex| vertex - first_vertex + shift));
         }
         first_vertex += instance.mesh.positions.len() as u32;
-        first_triangle += instance.mesh.triangles.len();
     }
     groups.into_values().map(Group::adjacency).collect()
 }

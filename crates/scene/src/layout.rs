@@ -239,6 +239,28 @@ pub struct Texture {
     pub wrap: u32,
 }
 
+/// `OccluderNode`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct OccluderNode {
+    /// m, world.
+    pub low: [f32; 3],
+    /// The first triangle below it.
+    pub first: u32,
+    /// m, world.
+    pub high: [f32; 3],
+    /// Of a leaf its triangles, else 0.
+    pub triangles: u32,
+    /// The node that follows all below it.
+    pub skip: u32,
+    /// 0.
+    pub pad0: u32,
+    /// 0.
+    pub pad1: u32,
+    /// 0.
+    pub pad2: u32,
+}
+
 /// `ShadowLight`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]

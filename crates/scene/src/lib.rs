@@ -25,6 +25,7 @@ mod gltf;
 pub mod layout;
 mod mesh;
 pub mod model;
+mod occluders;
 mod overrides;
 mod phase_file;
 mod primitives;

@@ -8,12 +8,11 @@ use tyndall_document::{Decoder, Diagnostics, Source, parse};
 
 use crate::adjacency::Adjacency;
 use crate::decode;
-use crate::encode::Encoded;
+use crate::encode::{Encoded, SCENE_DATA, is_derived};
 use crate::frame::{Bounds, Frame};
 use crate::model::{Camera, Instance, Light, LightKind, Material, Medium, Object, Placement, Texture};
 use crate::overrides::{Merged, Overrides};
 use crate::resolve;
-use crate::shadows::SHADOW_DATA;
 use tyndall_shaders::scene::HeightFog;
 
 /// Everything that a scene file and the files named in it say, checked and ready to be encoded for any time.
@@ -121,8 +120,8 @@ impl Scene {
         let lights = self.lights.iter().any(|l| self.light_varies(l));
         let names = [("camera", self.camera_moves()), ("lights", lights), ("vertices", geometry), ("triangles", flips)];
         let moving: Vec<&str> = names.into_iter().filter(|n| n.1).map(|n| n.0).collect();
-        let shadows = SHADOW_DATA.iter().copied().filter(|_| !moving.is_empty());
-        moving.iter().copied().chain(shadows).collect()
+        let follow = SCENE_DATA.iter().copied().filter(|name| !moving.is_empty() && is_derived(name));
+        moving.iter().copied().chain(follow).collect()
     }
 
     /// The scene data of a time for an image of this width/height.
@@ -130,8 +129,8 @@ impl Scene {
         self.encode_for(time, aspect, &|_| true)
     }
 
-    /// The same for those who read it: `reads` says of each name whether anybody does. Shadows, which take time, are
-    /// left empty where nobody reads them.
+    /// The same for those who read it: `reads` says of each name whether anybody does. What takes time,
+    /// shadows and occluders, is left empty where nobody reads it.
     pub fn encode_for(&self, time: f64, aspect: f64, reads: &dyn Fn(&str) -> bool) -> Encoded {
         Encoded::of(self, time, aspect, reads)
     }

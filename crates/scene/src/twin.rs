@@ -27,7 +27,7 @@ impl Scene {
     }
 
     /// The triangles of all objects that cast shadows, in world space.
-    fn casters(&self, frame: &Frame) -> Vec<twin::Triangle> {
+    pub(crate) fn casters(&self, frame: &Frame) -> Vec<twin::Triangle> {
         let instances = self.instances.iter().zip(&frame.transforms).filter(|(instance, _)| instance.casts_shadow);
         let triangles = instances.flat_map(|(instance, transform)| {
             let corner = |index: u32| transform.transform_point3(instance.mesh.positions[index as usize].as_dvec3());

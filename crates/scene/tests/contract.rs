@@ -167,7 +167,8 @@ fn keys_move_what_they_should_and_nothing_else() {
           lights: [Point(position: (0, 0, 0), intensity: Keys([(1, (0, 0, 0)), (2, (8, 8, 8))]))],
           objects: [(mesh: Box(size: (1, 1, 1))), (mesh: Plane(size: (1, 1)), translation: Keys([(0, (0, 0, 0)), (1, (0, 1, 0))]))])",
     );
-    let shadows = ["shadow_lights", "shadow_slices", "shadow_crossings", "shadow_edges"];
+    let shadows =
+        ["shadow_lights", "shadow_slices", "shadow_crossings", "shadow_edges", "occluder_nodes", "occluder_corners"];
     let moving: Vec<&str> = ["camera", "lights", "vertices"].into_iter().chain(shadows).collect();
     assert_eq!(scene.animated(), moving);
     let mut encoded = scene.encode(0.0, 1.0);

@@ -5,8 +5,8 @@ use std::mem::{offset_of, size_of};
 
 use naga::{Module, TypeInner};
 use tyndall_scene::layout::{
-    Ambient, Background, Camera, CosineLobe, Header, HeightFog, Light, Lobe, Material, Medium, Object, Phase,
-    PhaseTable, ShadowCrossing, ShadowEdge, ShadowLight, Texture, Vertex,
+    Ambient, Background, Camera, CosineLobe, Header, HeightFog, Light, Lobe, Material, Medium, Object, OccluderNode,
+    Phase, PhaseTable, ShadowCrossing, ShadowEdge, ShadowLight, Texture, Vertex,
 };
 
 /// Offset of each member, and size, of each struct of the file.
@@ -48,6 +48,7 @@ fn structs_match_the_shader() {
     same!(structs, Material { diffuse, texture, specular, shininess, lobe, pad0, pad1, pad2 });
     same!(structs, Texture { offset, width, height, wrap });
     same!(structs, ShadowLight { across, nearness, upward, depth_at_eye, axis, first_slice, slices, pad0, pad1, pad2 });
+    same!(structs, OccluderNode { low, first, high, triangles, skip, pad0, pad1, pad2 });
     same!(structs, ShadowCrossing { nearest, farthest, edge });
     same!(structs, ShadowEdge { a, step, b, pad });
     same!(structs, HeightFog { base_height, falloff, pad0, pad1 });

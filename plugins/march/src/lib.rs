@@ -6,6 +6,6 @@ use tyndall_plugin::{Plugin, folder};
 
 /// The plugin.
 pub fn plugin() -> Plugin {
-    Plugin::new("march", folder!("march": "plugin.ron", "airlight.wgsl"))
+    Plugin::new("march", folder!("march": "plugin.ron", "airlight.wgsl", "surface_shadows.wgsl"))
         .reference("march.airlight", reference::airlight)
 }

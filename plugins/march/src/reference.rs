@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 
 use tyndall_plugin::ReferenceInput;
+use tyndall_plugin::descriptor::ParamValue;
 use tyndall_shaders::lights::incident;
 use tyndall_shaders::medium::transmittance;
 use tyndall_shaders::phase::phase;
 use tyndall_shaders::ray::{Ray, ray_of_pixel};
 use tyndall_shaders::scene::{Light, Scene};
+use tyndall_shaders::shadows::lit_intervals;
 
 /// Optical depth along the ray, of the channel of least extinction, at which the march ends: as in `airlight.wgsl`.
 const MARCH_DEPTH: f64 = 16.0;
@@ -17,6 +19,7 @@ const MARCH_DEPTH: f64 = 16.0;
 pub(crate) fn airlight(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String> {
     let scene = input.scene()?;
     let (size, steps) = (input.size("radiance")?, input.number("steps")?);
+    let shadows = input.params.get("shadows") == Some(&ParamValue::Bool(true));
     let depth = input.inputs.get("depth");
     let least = scene.medium.extinction.min_element().max(1e-30);
     let mut radiance = Vec::with_capacity((4 * size[0] * size[1]) as usize);
@@ -24,7 +27,7 @@ pub(crate) fn airlight(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static s
         for x in 0..size[0] {
             let ray = ray_of_pixel(&scene.camera, [x, y], size);
             let far = depth.map_or(f64::INFINITY, |depth| f64::from(depth.data[(y * depth.width + x) as usize]));
-            let sum = march(scene, &ray, far.min(MARCH_DEPTH / least), steps);
+            let sum = march(scene, &ray, far.min(MARCH_DEPTH / least), steps, shadows);
             radiance.extend(sum.map(|channel| channel as f32));
             radiance.push(1.0);
         }
@@ -32,12 +35,16 @@ pub(crate) fn airlight(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static s
     Ok(BTreeMap::from([("radiance", radiance)]))
 }
 
-fn march(scene: &Scene, ray: &Ray, way: f64, steps: f64) -> [f64; 3] {
+fn march(scene: &Scene, ray: &Ray, way: f64, steps: f64, shadows: bool) -> [f64; 3] {
     let dx = way / steps;
+    let casters = if shadows { scene.casters.as_slice() } else { &[] };
+    let lit: Vec<Vec<[f64; 2]>> =
+        scene.lights.iter().map(|light| lit_intervals(light, casters, ray, f64::INFINITY)).collect();
     let mut sum = [0.0; 3];
     for step in 0..steps as u32 {
         let x = (f64::from(step) + 0.5) * dx;
-        for light in &scene.lights {
+        let reaches = |lit: &&Vec<[f64; 2]>| lit.iter().any(|[from, to]| (*from..*to).contains(&x));
+        for (light, _) in scene.lights.iter().zip(&lit).filter(|(_, lit)| reaches(lit)) {
             let scattered = scatter(scene, light, ray, x);
             (0..3).for_each(|channel| sum[channel] += scattered[channel] * dx);
         }

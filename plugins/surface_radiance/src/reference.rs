@@ -27,6 +27,7 @@ pub(crate) fn phong(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str,
             if is_on("direct") && way.is_finite() {
                 let surface = Surface {
                     way,
+                    lit: input.input("lit").ok().map(|lit| texel(lit, 0, x, y)),
                     normal: texel(normal, 0, x, y),
                     diffuse: texel(material, 0, x, y),
                     phong: texel(material, 1, x, y),
@@ -44,6 +45,8 @@ pub(crate) fn phong(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str,
 struct Surface {
     /// Metres along the ray.
     way: f64,
+    /// The lights that reach it, as in `lights.wgsl`; `None`: all.
+    lit: Option<[f64; 4]>,
     normal: [f64; 4],
     /// ρ in the first three channels.
     diffuse: [f64; 4],
@@ -71,7 +74,11 @@ fn reflected(scene: &Scene, pixel: [u32; 2], size: [u32; 2], surface: &Surface) 
     let mirrored = ray.direction - 2.0 * ray.direction.dot(normal) * normal;
     let to_eye = transmittance(&scene.medium, surface.way).to_array();
     let mut sum = [0.0; 3];
-    for light in &scene.lights {
+    for (index, light) in scene.lights.iter().enumerate() {
+        let bits = surface.lit.and_then(|lit| lit.get(index / 24).copied());
+        if bits.is_some_and(|bits| bits as u32 >> (index % 24) & 1 == 0) {
+            continue;
+        }
         let arriving = incident(light, ray.at(surface.way));
         let (cosine, cos_alpha) = (normal.dot(arriving.to_light), mirrored.dot(arriving.to_light));
         if cosine <= 0.0 {

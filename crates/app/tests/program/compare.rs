@@ -28,8 +28,8 @@ fn desk() -> Desk {
                 "lamp, denser": (scene: "lamp.scene.ron", set: { "scene.medium.extinction": (0.3, 0.3, 0.3) }),
             },
             methods: {
-                "march, 16": (graph: "reference.graph.ron", set: { "steps": 16 }),
-                "march, 1024": (graph: "reference.graph.ron", set: { "steps": 1024 }),
+                "march, 16": (graph: "reference.graph.ron", set: { "steps": 16, "shadows": false }),
+                "march, 1024": (graph: "reference.graph.ron", set: { "steps": 1024, "shadows": false }),
                 "quadrature": (graph: "airlight.graph.ron"),
                 "froxels": (graph: "froxels.graph.ron", set: { "froxels.width": 16, "froxels.height": 12, "froxels.slices": 64 }),
             },

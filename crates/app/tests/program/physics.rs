@@ -176,7 +176,7 @@ fn every_phase_function_agrees_with_the_march() {
             let settings: Vec<&str> = settings.into_iter().chain(more.iter().copied()).collect();
             desk.picture(graph, &desk.path("phase.scene.ron"), SIZE, "airlight", &settings)
         };
-        let march = draw(&graphs[1], &["steps=4096", "scattered=false"]);
+        let march = draw(&graphs[1], &["steps=4096", "scattered=false", "shadows=false"]);
         let errors = metrics::relative_errors(&draw(&graphs[0], &[]), &march, 1e-12, None).unwrap();
         assert!(errors.p99 < 0.01, "{phase}: {errors:?}");
     }
@@ -483,7 +483,7 @@ fn a_measured_function_is_the_function_that_it_holds() {
     let desk = Desk::new();
     desk.put("flat.phase.txt", "angle value\n0 7\n90 7\n180 7\n");
     desk.put("measured.scene.ron", &scene(&format!("{LAMP}, {SPOT}, {SUN}"), FLOOR));
-    for (graph, settings) in [("airlight", &[][..]), ("reference", &["steps=64", "scattered=false"])] {
+    for (graph, settings) in [("airlight", &[][..]), ("reference", &["steps=64", "scattered=false", "shadows=false"])] {
         let draw = |phase: &str| {
             let set = format!("scene.medium.phase={phase}");
             let settings: Vec<&str> = settings.iter().copied().chain([set.as_str()]).collect();

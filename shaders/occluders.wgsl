@@ -1,0 +1,139 @@
+// Which points of a view ray a light does not reach, from the triangles that cast shadows alone: brute force but for a
+// hierarchy of boxes (crates/scene/src/occluders.rs builds it). Silhouettes have no part in it.
+//
+// Points are asked for by 32, as bits, so that a walk down the hierarchy serves them all: software Vulkan ends all loops
+// of a thread after 65,535 rounds, silently, and a walk for each point of a fine march would come to more. The shadow of
+// a triangle is convex, so it hides the points of one interval of the ray.
+
+#import scene
+#import ray
+
+var<storage, read> occluder_nodes: OccluderNodes;
+var<storage, read> occluder_corners: OccluderCorners;
+
+// How far away a directional light is looked for, m.
+const SUN_WAY: f32 = 1e5;
+// A triangle that a light sees at less than this angle, rad, is transparent to it, as in silhouette.rs.
+const EDGE_ON: f32 = 1e-6;
+// Boxes are larger by this part, so that rounding errors lose none.
+const BOX_SLACK: f32 = 1e-5;
+
+// What lies between a light and a part of a ray: a triangle, or of a directional light a parallelogram.
+struct Fan {
+    start: vec3<f32>,           // of the part, m
+    low: vec3<f32>,             // of its box
+    high: vec3<f32>,
+    normal: vec3<f32>,          // of its plane, any length
+    before: vec3<f32>,          // normals of its sides within the plane, outward
+    end: vec3<f32>,
+    behind: vec3<f32>,
+}
+
+fn fan_of(light: Light, start: vec3<f32>, end: vec3<f32>) -> Fan {
+    let is_sun = light.kind == DIRECTIONAL;
+    let sun_way = -SUN_WAY * light.direction;
+    let to_light = select(light.position - start, sun_way, is_sun);
+    let from_end = select(light.position - end, sun_way, is_sun);
+    let low = min(min(start, end), min(start + to_light, end + from_end));
+    let high = max(max(start, end), max(start + to_light, end + from_end));
+    let normal = normalize_or_zero(cross(end - start, to_light));
+    let before = normalize_or_zero(cross(normal, to_light));
+    let behind = normalize_or_zero(cross(normal, from_end));
+    return Fan(start, low, high, normal, select(before, -before, dot(before, end - start) > 0.0), end,
+        select(behind, -behind, dot(behind, start - end) > 0.0));
+}
+
+fn normalize_or_zero(v: vec3<f32>) -> vec3<f32> {
+    return v * inverseSqrt(max(dot(v, v), 1e-30));
+}
+
+// Whether all of a box is on the outer side of a plane through a point.
+fn is_outside(centre: vec3<f32>, extent: vec3<f32>, normal: vec3<f32>, point: vec3<f32>) -> bool {
+    let away = centre - point;
+    return dot(normal, away) > dot(abs(normal), extent + BOX_SLACK * abs(away));
+}
+
+fn meets(node: OccluderNode, fan: Fan) -> bool {
+    let slack = BOX_SLACK * (abs(fan.low) + abs(fan.high));
+    let apart = any(node.low > fan.high + slack) || any(node.high < fan.low - slack);
+    let centre = 0.5 * (node.low + node.high);
+    let extent = 0.5 * (node.high - node.low);
+    return !(apart || is_outside(centre, extent, fan.normal, fan.start) || is_outside(centre, extent, -fan.normal, fan.start)
+        || is_outside(centre, extent, fan.before, fan.start) || is_outside(centre, extent, fan.behind, fan.end));
+}
+
+// The interval of a ray that is left of x to y where height + rise x >= 0, m.
+fn clipped(interval: vec2<f32>, height: f32, rise: f32) -> vec2<f32> {
+    let at = -height / select(rise, 1e-30, rise == 0.0);
+    let low = select(interval.x, max(interval.x, at), rise > 0.0);
+    let high = select(interval.y, min(interval.y, at), rise < 0.0);
+    return select(vec2<f32>(low, high), vec2<f32>(1.0, 0.0), rise == 0.0 && height < 0.0);
+}
+
+// The interval of a ray in the shadow of a triangle, empty where x > y.
+fn shadow_of_triangle(first: u32, light: Light, ray: Ray) -> vec2<f32> {
+    let is_sun = light.kind == DIRECTIONAL;
+    // from the light; of a sun from the ray's origin
+    let origin = select(light.position, ray.origin, is_sun);
+    let a = occluder_corners.items[first].xyz - origin;
+    let b = occluder_corners.items[first + 1u].xyz - origin;
+    let c = occluder_corners.items[first + 2u].xyz - origin;
+    let eye = ray.origin - origin;
+    let normal = cross(b - a, c - a);
+    let away = dot(normal, select(a, light.direction, is_sun));
+    let distance = select(max(max(length(a), length(b)), length(c)), 1.0, is_sun);
+    let sides = mat3x3<f32>(
+        select(cross(a, b), cross(b - a, light.direction), is_sun),
+        select(cross(b, c), cross(c - b, light.direction), is_sun),
+        select(cross(c, a), cross(a - c, light.direction), is_sun),
+    );
+    let turn = sign(dot(sides[0], c - a));
+    var interval = vec2<f32>(-1e30, 1e30);
+    interval = clipped(interval, turn * dot(sides[0], eye - a), turn * dot(sides[0], ray.direction));
+    interval = clipped(interval, turn * dot(sides[1], eye - b), turn * dot(sides[1], ray.direction));
+    interval = clipped(interval, turn * dot(sides[2], eye - c), turn * dot(sides[2], ray.direction));
+    interval = clipped(interval, sign(away) * dot(normal, eye - a), sign(away) * dot(normal, ray.direction));
+    let is_seen = abs(away) > EDGE_ON * distance * length(normal);
+    return select(vec2<f32>(1.0, 0.0), interval, is_seen);
+}
+
+// Bits of the points from x metres in steps of dx that are within an interval.
+fn points_within(interval: vec2<f32>, x: f32, dx: f32) -> u32 {
+    let first = u32(clamp(ceil((interval.x - x) / dx), 0.0, 32.0));
+    let end = u32(clamp(floor((interval.y - x) / dx) + 1.0, 0.0, 32.0));
+    let below_end = select((1u << (end & 31u)) - 1u, 0xffffffffu, end == 32u);
+    let below_first = select((1u << (first & 31u)) - 1u, 0xffffffffu, first == 32u);
+    return below_end & ~below_first;
+}
+
+// Of a leaf's triangle of this number, where it has so many.
+fn points_of_leaf(node: OccluderNode, number: u32, triangles: u32, light: Light, ray: Ray, x: f32, dx: f32) -> u32 {
+    let shadow = shadow_of_triangle(3u * (node.first + select(0u, number, number < triangles)), light, ray);
+    return select(0u, points_within(shadow, x, dx), number < triangles && shadow.x <= shadow.y);
+}
+
+// Of 32 points of a ray from x metres in steps of dx those that a light does not reach, the first in the lowest bit.
+fn hidden_points(light: Light, ray: Ray, x: f32, dx: f32) -> u32 {
+    let fan = fan_of(light, ray.origin + x * ray.direction, ray.origin + (x + 31.0 * dx) * ray.direction);
+    let count = occluder_nodes.count;
+    var at = 0u;
+    var hidden = 0u;
+    loop {
+        // on to the next leaf that is met
+        var node: OccluderNode;
+        var triangles = 0u;
+        loop {
+            node = occluder_nodes.items[at];
+            let inside = count > 0u && meets(node, fan);
+            triangles = select(0u, node.triangles, inside);
+            at = select(node.skip, at + 1u, inside || count == 0u);
+            if triangles > 0u || at >= count { break; }
+        }
+        hidden |= points_of_leaf(node, 0u, triangles, light, ray, x, dx);
+        hidden |= points_of_leaf(node, 1u, triangles, light, ray, x, dx);
+        hidden |= points_of_leaf(node, 2u, triangles, light, ray, x, dx);
+        hidden |= points_of_leaf(node, 3u, triangles, light, ray, x, dx);
+        if at >= count || hidden == 0xffffffffu { break; }
+    }
+    return hidden;
+}
