@@ -37,6 +37,36 @@ pub fn gamma(kind: &Phase, lambda: f64, angle: f64) -> f64 {
     if angle < 0.0 { -integrate(integrand, angle, 0.0, TOLERANCE) } else { integrate(integrand, 0.0, angle, TOLERANCE) }
 }
 
+/// A table of up to four channels as the passes look it up: linear in both coordinates, both ends included.
+#[derive(Debug, Clone, Copy)]
+pub struct Table<'a> {
+    /// Texels in x and y.
+    pub size: [u32; 2],
+    /// Numbers of a texel.
+    pub channels: u32,
+    /// Row by row.
+    pub data: &'a [f32],
+}
+
+impl Table<'_> {
+    /// At a place, 0 to 1 from its first to its last texels, clamped; each channel times its weight, summed.
+    pub fn at(&self, weights: [f64; 4], place: [f64; 2]) -> f64 {
+        let axis = |axis: usize| {
+            let last = f64::from(self.size[axis] - 1);
+            let at = place[axis].clamp(0.0, 1.0) * last;
+            let low = at.floor().min((last - 1.0).max(0.0));
+            [(low, 1.0 - (at - low)), ((low + 1.0).min(last), at - low)]
+        };
+        let texel = |x: f64, y: f64| {
+            let first = ((y as u32 * self.size[0] + x as u32) * self.channels) as usize;
+            let channels = self.data[first..first + self.channels as usize].iter().zip(weights);
+            channels.map(|(value, weight)| f64::from(*value) * weight).sum::<f64>()
+        };
+        let rows = axis(1).into_iter();
+        rows.map(|(y, down)| axis(0).iter().map(|(x, across)| down * across * texel(*x, y)).sum::<f64>()).sum()
+    }
+}
+
 /// P_0 to P_3.
 pub fn legendre_polynomials(mu: f64) -> [f64; 4] {
     [1.0, mu, 1.5 * mu * mu - 0.5, mu * (2.5 * mu * mu - 1.5)]

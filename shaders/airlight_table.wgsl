@@ -27,9 +27,6 @@
 #import cone
 #import airlight
 
-const HALF_PI: f32 = 1.57079632679;
-const QUARTER_PI: f32 = 0.78539816340;
-
 // The largest u of the table.
 const TABLE_DEPTH: f32 = 10.0;
 

@@ -6,7 +6,7 @@
 //   N         exponent of the spot's cos^N
 //   along     component of the axis along the ray
 //   across    component of the axis along the way from the light to the foot, the ray's nearest point to the light.
-//             What is left of the axis is out of the plane of light and ray: along^2 + across^2 = cos^2(delta)
+//   tilt      what is left of the axis, out of the plane of light and ray: along^2 + across^2 = cos^2(delta) = 1 - tilt^2
 //   v         place on the ray, tan(pi/4 + theta/2), theta the angle at the light from the foot, growing along the ray
 //
 // cos(psi) = cos(delta) cos(theta + alpha), so in v
@@ -14,6 +14,11 @@
 // The thesis (Hong 2006, section 6.2.1) leaves cos(delta) out, which is right only where the axis lies in the plane.
 
 #import scene
+
+// Angles, rad.
+const PI: f32 = 3.14159265359;
+const HALF_PI: f32 = 1.57079632679;
+const QUARTER_PI: f32 = 0.78539816340;
 
 // I/I_0 of a spot where the angle with its axis has this cosine: cos^N inside the cutoff, 0 outside. Beyond 90 degrees
 // from the axis only a spot with N = 0 shines.
@@ -47,7 +52,12 @@ fn spot_beside_ray(light: Light, direction: vec3<f32>, from_light: vec3<f32>, v0
     let highest = max(along * (1.0 - 2.0 * q) + 2.0 * across * v * q, 0.0);
     let bits = FALLOFF_BITS + min(1.4427 * depth_of_v * (v - v0), 1000.0);
     let lowest = highest * exp2(-bits / max(light.exponent, 0.01));
-    let lit = ray_in_cone(along, across, max(light.cos_cutoff, select(-1.0, lowest, light.exponent > 0.0)));
+    // a ray that meets the light has no foot beside it: what is not along it counts as tilt
+    let meets = dot(from_light, from_light) < 0.5;
+    let tilt = select(dot(light.direction, cross(direction, from_light)), sqrt(max(1.0 - along * along, 0.0)), meets);
+    let faint = light.exponent > 0.0 && lowest > light.cos_cutoff;
+    let cutoff = select(vec2<f32>(light.cos_cutoff, light.sin_cutoff), vec2<f32>(lowest, sqrt(max(1.0 - lowest * lowest, 0.0))), faint);
+    let lit = ray_in_cone(along, across, tilt, cutoff.x, cutoff.y);
     return SpotBesideRay(along, across, lit.first, lit.second);
 }
 
@@ -60,10 +70,11 @@ struct Lit {
 }
 
 // The parts of 0 <= v <= V_MAX with cos(psi) >= c: the roots of (along - c) v^2 + 2 across v - (along + c) = 0, in the form
-// that does not cancel. Two parts need a cone wider than a half-space (c < 0), whose dark rest is a cone.
-fn ray_in_cone(along: f32, across: f32, c: f32) -> Lit {
+// that does not cancel. Two parts need a cone wider than a half-space (c < 0), whose dark rest is a cone. `sine` is of the
+// cutoff, as along^2 + across^2 - c^2 of a narrow cone would cancel: sine^2 - tilt^2 is the same.
+fn ray_in_cone(along: f32, across: f32, tilt: f32, c: f32, sine: f32) -> Lit {
     let nothing = vec2<f32>(0.0);
-    let discriminant = along * along + across * across - c * c;
+    let discriminant = (sine - abs(tilt)) * (sine + abs(tilt));
     if discriminant <= 0.0 {
         return Lit(select(nothing, vec2<f32>(0.0, V_MAX), c < 0.0), nothing);
     }

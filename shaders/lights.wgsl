@@ -1,6 +1,9 @@
-// What reaches a point from a light, without what the medium takes.
+// What reaches a point from a light, without what the medium takes, and what a surface there makes of it.
 //
-//   d     distance of the light, m
+//   d         distance of the light, m
+//   rho       Lambert reflectance; the BRDF is rho/pi
+//   k_s, n    Phong lobe
+//   alpha     angle between the light and the mirrored view ray
 
 #import scene
 #import cone
@@ -39,4 +42,14 @@ fn incident_light(light: Light, position: vec3<f32>) -> IncidentLight {
     let falloff = select(1.0, spot_falloff(light, -dot(light.direction, to_light)), light.kind == SPOT);
     let on_axis = light.intensity / (d * d);
     return IncidentLight(to_light, on_axis * falloff, on_axis, d);
+}
+
+// The part of a light's irradiance that a surface sends to the eye: rho/pi n.l + k_s cos^n alpha, where n.l > 0, else 0
+// (Hong 2006, eq. 4.12, with the BRDF rho/pi). The Phong term has no cosine of incidence, as in the papers. `normal` is
+// turned to the eye; all vectors are unit vectors.
+fn direct_share(rho: vec3<f32>, k_s: vec3<f32>, n: f32, normal: vec3<f32>, mirrored: vec3<f32>, to_light: vec3<f32>) -> vec3<f32> {
+    let cosine = dot(normal, to_light);
+    let cos_alpha = dot(mirrored, to_light);
+    let lobe = select(0.0, pow(max(cos_alpha, 1e-30), n), cos_alpha > 0.0);
+    return select(vec3<f32>(0.0), rho / PI * cosine + k_s * lobe, cosine > 0.0);
 }

@@ -153,12 +153,17 @@ fn reach(n: f64) -> f64 {
 /// sin γ·F(T, γ): of the airlight on an endless ray that makes the angle γ with the way to the light, with h = d·sin γ,
 /// `∫ p·e^(−T·(cos γ + sin γ·v))·2/(1 + v²) dv` from v = tan(γ/2) on, see the glossary of `airlight.wgsl`.
 pub fn glow(kind: &Phase, depth: f64, gamma: f64) -> f64 {
+    glow_of(|w| phase(kind, w), depth, gamma)
+}
+
+/// The same of any phase function, given at w.
+pub fn glow_of(phase: impl Fn(f64) -> f64, depth: f64, gamma: f64) -> f64 {
     let start = (gamma / 2.0).tan();
     let rate = depth * gamma.sin();
     let at = |x: f64| {
         let v = start + x;
         let w = if v > 1e8 { 1.0 } else { v * v / (1.0 + v * v) };
-        phase(kind, w) * (-rate * x).exp() * 2.0 * x / (1.0 + v * v)
+        phase(w) * (-rate * x).exp() * 2.0 * x / (1.0 + v * v)
     };
     // in ln(v - start), in which all scales are alike, equal steps reach any precision
     let sum: f64 = (-220..=220).map(|i| at((STEP * f64::from(i)).exp())).sum();

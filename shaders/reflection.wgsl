@@ -29,8 +29,6 @@
 #import medium
 #import lights
 
-const PI: f32 = 3.14159265358979;
-
 // Depths are spaced evenly below the first and in equal ratios above it, as J goes like T ln T near 0. Beyond the last
 // one no light is left.
 const FIRST_DEPTH: f32 = 0.02;
@@ -146,21 +144,12 @@ struct Surface {
     phong: Lookup,              // about the mirrored view ray
 }
 
-// The BRDF of light straight from a light, with the cosine of incidence where it has one: Hong 2006, eq. 4.12, where
-// n.l > 0. The Phong term has none, as in the papers.
-fn direct_share(surface: Surface, to_light: vec3<f32>) -> vec3<f32> {
-    let cosine = dot(surface.lambert.axis, to_light);
-    let cos_alpha = dot(surface.phong.axis, to_light);
-    let lobe = select(0.0, pow(max(cos_alpha, 1e-30), surface.n), cos_alpha > 0.0);
-    return select(vec3<f32>(0.0), surface.rho / PI * cosine + surface.k_s * lobe, cosine > 0.0);
-}
-
 // Radiance that leaves the surface toward the eye, W/(sr m^2), not attenuated on that way.
 fn reflected(light: Light, medium: Medium, surface: Surface, direct: bool, scattered: bool, table: texture_2d_array<f32>) -> vec3<f32> {
     let incident = incident_light(light, surface.position);
     var sum = vec3<f32>(0.0);
     if direct {
-        sum = direct_share(surface, incident.to_light) * incident.irradiance;
+        sum = direct_share(surface.rho, surface.k_s, surface.n, surface.lambert.axis, surface.phong.axis, incident.to_light) * incident.irradiance;
     }
     if scattered {
         let is_sun = light.kind == DIRECTIONAL;

@@ -1,10 +1,10 @@
 //! The part of a scene that light scattering needs, in double precision: twin of `scene.wgsl`.
 
 use crate::phase::PhaseTable;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
-/// A triangle, world, m.
-pub type Triangle = [DVec3; 3];
+/// A triangle that casts a shadow, world, m.
+pub type Caster = [DVec3; 3];
 
 /// What passes see of a scene at one time, all surfaces apart but for the shadows that they cast.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +22,22 @@ pub struct Scene {
     /// In the order of the scene.
     pub lights: Vec<Light>,
     /// Every triangle that casts a shadow.
-    pub casters: Vec<Triangle>,
+    pub casters: Vec<Caster>,
+    /// Shininess of each material that has a Phong lobe, in the order of the scene.
+    pub shininesses: Vec<f64>,
+    /// Lobes of surfaces and spots, each once.
+    pub cosine_lobes: Vec<CosineLobe>,
+}
+
+/// cosⁿ within a cutoff: twin of `CosineLobe`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CosineLobe {
+    /// n.
+    pub exponent: f64,
+    /// Cosine of the half-angle where a spot ends; 0 of a surface.
+    pub cos_cutoff: f64,
+    /// A spot sends it, and no surface.
+    pub is_spot: bool,
 }
 
 /// A pinhole camera: twin of `Camera`.
@@ -148,4 +163,74 @@ pub enum Light {
         /// W/m².
         irradiance: DVec3,
     },
+}
+
+/// What rays can meet, in world space: twin of `Vertices`, `Triangles`, `Objects`, `Materials`, `Textures` and `Texels`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Surfaces {
+    /// In the order in which passes number them.
+    pub triangles: Vec<Triangle>,
+    /// To which the triangles refer.
+    pub materials: Vec<Material>,
+    /// To which the materials refer.
+    pub textures: Vec<Texture>,
+}
+
+/// A triangle, counter-clockwise seen from outside.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Triangle {
+    /// Its three corners.
+    pub corners: [Vertex; 3],
+    /// Index into the materials.
+    pub material: usize,
+}
+
+/// A corner of a triangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Vertex {
+    /// m.
+    pub position: DVec3,
+    /// Unit vector.
+    pub normal: DVec3,
+    /// Texture coordinates; (0, 0) is the corner of the first texel of the top row.
+    pub uv: DVec2,
+}
+
+/// How a surface reflects.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Material {
+    /// Lambert reflectance ρ; the BRDF is ρ/π.
+    pub diffuse: DVec3,
+    /// k_s of the Phong lobe.
+    pub specular: DVec3,
+    /// n of the Phong lobe.
+    pub shininess: f64,
+    /// Of n among the cosine lobes of the scene, from 1; 0 where k_s is 0.
+    pub lobe: u32,
+    /// Index into the textures; its colour multiplies `diffuse`.
+    pub texture: Option<usize>,
+}
+
+/// What a texture coordinate outside 0..1 reads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wrap {
+    /// The picture again.
+    Repeat,
+    /// The picture's edge.
+    Clamp,
+    /// The picture mirrored.
+    Mirror,
+}
+
+/// A picture on a surface.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Texture {
+    /// Texels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Along u and v.
+    pub wrap: [Wrap; 2],
+    /// Red, green and blue, sRGB, row by row from the top.
+    pub texels: Vec<[u8; 3]>,
 }

@@ -104,9 +104,9 @@ struct Light {
     direction: vec3<f32>,       // unit vector, the way the light travels; Point: unused
     exponent: f32,              // N of a spot's cos^N
     cos_cutoff: f32,            // cosine of a spot's half-angle
+    sin_cutoff: f32,            // and its sine, which the cosine of a narrow cone does not hold in f32
     lobe: u32,                  // of a spot, or of the most alike, among the cosine lobes, from 1; else 0
     pad0: u32,
-    pad1: u32,
 }
 
 struct Lights {

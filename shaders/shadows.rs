@@ -4,7 +4,7 @@
 //! interval of a ray, and what is left of the ray beside all intervals is lit.
 
 use crate::ray::Ray;
-use crate::scene::{Light, Triangle};
+use crate::scene::{Caster, Light};
 use glam::DVec3;
 
 /// Where a light's rays come from.
@@ -15,7 +15,7 @@ enum Source {
 }
 
 /// The lit intervals of the first `way` metres of a ray, which may be infinite, in order, m.
-pub fn lit_intervals(light: &Light, casters: &[Triangle], ray: &Ray, way: f64) -> Vec<[f64; 2]> {
+pub fn lit_intervals(light: &Light, casters: &[Caster], ray: &Ray, way: f64) -> Vec<[f64; 2]> {
     let source = match *light {
         Light::Point { position, .. } | Light::Spot { position, .. } => Source::At(position),
         Light::Directional { direction, .. } => Source::Along(direction),
@@ -38,12 +38,12 @@ pub fn lit_intervals(light: &Light, casters: &[Triangle], ray: &Ray, way: f64) -
 }
 
 /// Whether the light reaches the point at the end of the ray's first `way` metres, seen from the eye's side.
-pub fn is_lit(light: &Light, casters: &[Triangle], ray: &Ray, way: f64) -> bool {
+pub fn is_lit(light: &Light, casters: &[Caster], ray: &Ray, way: f64) -> bool {
     lit_intervals(light, casters, ray, way).last().is_some_and(|[_, end]| *end >= way * (1.0 - 1e-5))
 }
 
 /// The part of a ray in the shadow of a triangle. One that the light sees edge on has none.
-fn shadow(source: Source, &[a, b, c]: &Triangle, ray: &Ray) -> Option<[f64; 2]> {
+fn shadow(source: Source, &[a, b, c]: &Caster, ray: &Ray) -> Option<[f64; 2]> {
     let normal = (b - a).cross(c - a);
     let away = match source {
         Source::At(light) => normal.dot(a - light),
@@ -84,7 +84,7 @@ mod tests {
         Light::Point { position, intensity: DVec3::ONE, radius: 0.0 }
     }
 
-    fn square(half: f64, y: f64) -> [Triangle; 2] {
+    fn square(half: f64, y: f64) -> [Caster; 2] {
         let corner = |x: f64, z: f64| DVec3::new(x * half, y, z * half);
         let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
         [[corners[0], corners[1], corners[2]], [corners[0], corners[2], corners[3]]]

@@ -25,8 +25,6 @@
 #import quadrature
 #import airlight_table
 
-const PI: f32 = 3.14159265359;
-
 // Light below this share of the lobe's largest value is left out: e^-16.
 const LOBE_LEFT_OUT: f32 = 16.0;
 

@@ -1,19 +1,8 @@
 // Light -> surface -> eye, of every light of the scene, in a homogeneous medium or in height fog.
-//
-//   rho       Lambert reflectance; the BRDF is rho/pi
-//   k_s, n    Phong lobe
-//   alpha     angle between the light and the mirrored view ray
-//   d         distance of the light from the surface, m
-//
-// The contract's formula (Hong 2006, section 4.2, with the BRDF of a Lambert surface rho/pi): where n.l > 0
-//   L = (rho/pi n.l + k_s cos^n alpha) I e^(-sigma_t d)/d^2, attenuated to the eye; else 0
-// The Phong term has no cosine of incidence, as in the papers.
 #import scene
 #import ray
 #import medium
 #import lights
-
-const PI: f32 = 3.14159265358979;
 
 var<uniform> camera: Camera;
 var<uniform> medium: Medium;
@@ -24,17 +13,11 @@ var normal: texture_2d<f32>;
 var material: texture_2d_array<f32>;
 var radiance: texture_storage_2d<rgba32float, write>;
 
-// L of one light at a surface, before the way to the eye; `normal` is turned to the eye, `mirrored` is the view ray
-// mirrored at the surface; both unit vectors.
+// L of one light at a surface, before the way to the eye; see direct_share of shaders/lights.wgsl.
 fn reflected(light: Light, position: vec3<f32>, normal: vec3<f32>, mirrored: vec3<f32>, rho: vec3<f32>, phong: vec4<f32>) -> vec3<f32> {
     let incident = incident_light(light, position);
-    let cosine = dot(normal, incident.to_light);
-    if cosine <= 0.0 {
-        return vec3<f32>(0.0);
-    }
-    let cos_alpha = dot(mirrored, incident.to_light);
-    let lobe = select(0.0, pow(max(cos_alpha, 1e-30), phong.w), cos_alpha > 0.0);
-    return (rho / PI * cosine + phong.xyz * lobe) * incident.irradiance * transmittance(medium, effective_way(height_fog, position.y, incident.to_light.y, incident.way));
+    let through = effective_way(height_fog, position.y, incident.to_light.y, incident.way);
+    return direct_share(rho, phong.xyz, phong.w, normal, mirrored, incident.to_light) * incident.irradiance * transmittance(medium, through);
 }
 
 @compute @workgroup_size(8, 8)

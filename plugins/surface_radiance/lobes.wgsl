@@ -26,21 +26,23 @@ fn angle_of(sine_of_half: f32) -> f32 {
     return 2.0 * atan2(sine_of_half, sqrt(max(1.0 - sine_of_half * sine_of_half, 0.0)));
 }
 
-// J of a row by its series.
-fn zonal_sum(n: f32, theta: f32, row: u32) -> f32 {
+// J of a row by its series, at two angles.
+fn zonal_sums(n: f32, cosines: vec2<f32>, row: u32) -> vec2<f32> {
     let terms = textureDimensions(coefficients).x;
-    let cosine = cos(theta);
-    var sum = 0.0;
-    // P_(l-1), P_l; K_l, K_(l+1), by K_(l+2) = K_l (n-l)/(n+l+3)
-    var p = vec2<f32>(0.0, 1.0);
+    var sums = vec2<f32>(0.0);
+    // P_(l-1) and P_l; K_l, K_(l+1), by K_(l+2) = K_l (n-l)/(n+l+3)
+    var before = vec2<f32>(0.0);
+    var p = vec2<f32>(1.0);
     var k = 2.0 * PI * vec2<f32>(1.0 / (n + 1.0), 1.0 / (n + 2.0));
     for (var l = 0u; l < terms; l++) {
         let degree = f32(l);
-        sum += (2.0 * degree + 1.0) / (4.0 * PI) * k.x * p.y * textureLoad(coefficients, vec2<u32>(l, row), 0).x;
-        p = vec2<f32>(p.y, ((2.0 * degree + 1.0) * cosine * p.y - degree * p.x) / (degree + 1.0));
+        sums += (2.0 * degree + 1.0) / (4.0 * PI) * k.x * textureLoad(coefficients, vec2<u32>(l, row), 0).x * p;
+        let next = ((2.0 * degree + 1.0) * cosines * p - degree * before) / (degree + 1.0);
+        before = p;
+        p = next;
         k = vec2<f32>(k.y, k.x * (n - degree) / (n + degree + 3.0));
     }
-    return sum;
+    return sums;
 }
 
 // (1 - x)^n, without the loss of x beside 1.
@@ -82,11 +84,10 @@ const ACROSS_STEP: f32 = 0.16;
 // Where cos^n is e^-18 a lobe ends.
 const REACH_EXPONENT: f32 = 18.0;
 
-// A node: the first of the four nodes of the glow around it, how far it is beyond the second, and its weight.
+// A node across a lobe: the first of the four nodes of the glow around it, and what each of them counts.
 struct Node {
     first: u32,
-    within: f32,
-    weight: f32,
+    shares: vec4<f32>,
 }
 
 fn node_across(lobe: CosineLobe, theta: f32, index: u32) -> Node {
@@ -101,70 +102,106 @@ fn node_across(lobe: CosineLobe, theta: f32, index: u32) -> Node {
     let change = 2.0 * e / ((1.0 + e) * (1.0 + e));
     let gamma = clamp(low + width * share, 1e-7, PI - 1e-6);
     let sought = (log(tan(0.5 * gamma)) - FIRST_NODE) / NODE_STEP;
-    let at = clamp(sought, 1.0, f32(textureDimensions(glow).x) - 3.0);
+    let at = clamp(sought, 1.0, f32(GLOW_NODES) - 3.0);
     // behind the last node, away from the light, the glow falls like pi - gamma
     let beyond = exp(-NODE_STEP * max(sought - at, 0.0));
     let second = floor(at);
-    return Node(u32(second) - 1u, at - second, azimuthal_sum(lobe, theta, gamma) * change * width * ACROSS_STEP * beyond);
-}
-
-// The glow of a row at a node, cubic between its own nodes.
-fn glow_at(node: Node, row: u32) -> f32 {
-    let x = node.within;
-    let weights = vec4<f32>(-x * (x - 1.0) * (x - 2.0) / 6.0, (x + 1.0) * (x - 1.0) * (x - 2.0) / 2.0,
+    let weight = azimuthal_sum(lobe, theta, gamma) * change * width * ACROSS_STEP * beyond;
+    // cubic between the four
+    let x = at - second;
+    let shares = vec4<f32>(-x * (x - 1.0) * (x - 2.0) / 6.0, (x + 1.0) * (x - 1.0) * (x - 2.0) / 2.0,
         -(x + 1.0) * x * (x - 2.0) / 2.0, (x + 1.0) * x * (x - 1.0) / 6.0);
-    return dot(weights, vec4<f32>(textureLoad(glow, vec2<u32>(node.first, row), 0).x,
-        textureLoad(glow, vec2<u32>(node.first + 1u, row), 0).x, textureLoad(glow, vec2<u32>(node.first + 2u, row), 0).x,
-        textureLoad(glow, vec2<u32>(node.first + 3u, row), 0).x));
+    return Node(u32(second) - 1u, weight * shares);
 }
 
-// One workgroup for each pair of angles of a layer: a thread for each depth, and for the directional light at the end.
+// Nodes of the glow, see zonal.wgsl.
+const GLOW_NODES: u32 = 256u;
+
+// One workgroup for each cell of angles, all layers one after another: a thread for each depth, and for the directional light
+// at the end. (Software Vulkan takes as long for a workgroup that has nothing to do as for another one.)
 const POINTS: u32 = 97u;
 
 // Nodes across the lobe at the first and at the second angle.
 var<workgroup> across: array<array<Node, ACROSS>, 2>;
-// What each thread has found, at both angles.
+// What a node of the glow counts at both.
+var<workgroup> shares: array<vec2<f32>, GLOW_NODES>;
+// What each thread has found, at both.
 var<workgroup> found: array<vec2<f32>, POINTS>;
+
+// What a node of the glow counts at an angle: those nodes across the lobe that stand around it. They stand in order.
+fn share_of(side: u32, glow_node: u32) -> f32 {
+    // the first one whose four nodes reach this one, by bisection
+    var start = 0u;
+    var length = 64u;
+    loop {
+        let middle = start + length;
+        start = select(start, middle, middle <= ACROSS && across[side][min(middle, ACROSS) - 1u].first + 3u < glow_node);
+        length /= 2u;
+        if length == 0u { break; }
+    }
+    var sum = 0.0;
+    loop {
+        let node = across[side][min(start, ACROSS - 1u)];
+        let reaches = start < ACROSS && node.first <= glow_node && glow_node <= node.first + 3u;
+        sum += select(0.0, node.shares[min(glow_node - node.first, 3u)], reaches);
+        start++;
+        if !reaches { break; }
+    }
+    return sum;
+}
 
 @compute @workgroup_size(1, POINTS, 1)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = textureDimensions(table);
-    let used = id.z <= cosine_lobes.count;
-    var lobe = CosineLobe(1.0, 0.0, 0u, 0u);
-    if id.z > 0u && used {
-        lobe = cosine_lobes.items[id.z - 1u];
-    }
-    let n = lobe.exponent;
-    let is_spot = lobe.is_spot != 0u;
-    let zonal = n <= ZONAL_MOST && !is_spot;
-    let axis = angle_axis(lobe_width(n, select(-1.0, lobe.cos_cutoff, is_spot)), f32(size.x));
-    let theta0 = angle_of(sine_of_half_at(axis, f32(id.x)));
-    let theta1 = angle_of(sine_of_half_at(axis, f32(id.x + 1u)));
-    if used && !zonal {
-        for (var i = id.y; i < ACROSS; i += POINTS) {
-            across[0][i] = node_across(lobe, theta0, i);
-            across[1][i] = node_across(lobe, theta1, i);
+    let count = cosine_lobes.count;
+    var layer = 0u;
+    loop {
+        // Lambert's, then those of the scene
+        var lobe = CosineLobe(1.0, 0.0, 0u, 0u);
+        if layer > 0u {
+            lobe = cosine_lobes.items[layer - 1u];
         }
-    }
-    workgroupBarrier();
-    var sums = vec2<f32>(0.0);
-    if used && zonal {
-        sums = vec2<f32>(zonal_sum(n, theta0, id.y), zonal_sum(n, theta1, id.y));
-    }
-    if used && !zonal {
-        for (var i = 0u; i < ACROSS; i++) {
-            sums.x += across[0][i].weight * glow_at(across[0][i], id.y);
-            sums.y += across[1][i].weight * glow_at(across[1][i], id.y);
+        let n = lobe.exponent;
+        let is_spot = lobe.is_spot != 0u;
+        let axis = angle_axis(lobe_width(n, select(-1.0, lobe.cos_cutoff, is_spot)), f32(size.x));
+        let angles = vec2<f32>(angle_of(sine_of_half_at(axis, f32(id.x))), angle_of(sine_of_half_at(axis, f32(id.x + 1u))));
+        var sums = vec2<f32>(0.0);
+        if n <= ZONAL_MOST && !is_spot {
+            sums = zonal_sums(n, cos(angles), id.y);
+        } else {
+            if id.y < ACROSS {
+                across[0][id.y] = node_across(lobe, angles.x, id.y);
+                across[1][id.y] = node_across(lobe, angles.y, id.y);
+            }
+            workgroupBarrier();
+            let first = min(across[0][0].first, across[1][0].first);
+            let end = max(across[0][ACROSS - 1u].first, across[1][ACROSS - 1u].first) + 4u;
+            for (var i = first + id.y; i < end; i += POINTS) {
+                shares[i] = vec2<f32>(share_of(0u, i), share_of(1u, i));
+            }
+            workgroupBarrier();
+            for (var i = first; i < end; i++) {
+                sums += shares[i] * textureLoad(glow, vec2<u32>(i, id.y), 0).x;
+            }
         }
+        let unit = select(2.0 * PI / (n + 1.0), textureLoad(coefficients, vec2<u32>(0u, id.y), 0).x, is_spot);
+        // what a series leaves of a value near 0 may be below it
+        found[id.y] = max(sums / unit, vec2<f32>(0.0));
+        workgroupBarrier();
+        // the last two threads have no cell of their own: one is the last depth, one the directional light's, the last row
+        if id.y + 2u < POINTS {
+            textureStore(table, id.xy, layer, vec4<f32>(found[id.y], found[id.y + 1u]));
+        } else if id.y + 1u == POINTS {
+            textureStore(table, vec2<u32>(id.x, size.y - 1u), layer, vec4<f32>(found[id.y], found[id.y]));
+        }
+        workgroupBarrier();
+        layer++;
+        if layer > count { break; }
     }
-    let unit = select(2.0 * PI / (n + 1.0), textureLoad(coefficients, vec2<u32>(0u, id.y), 0).x, is_spot);
-    // what a series leaves of a value near 0 may be below it
-    found[id.y] = max(sums / unit, vec2<f32>(0.0));
-    workgroupBarrier();
-    // the last two threads have no cell of their own: one is the last depth, one the directional light's, the last row
-    if id.y + 2u < POINTS {
-        textureStore(table, id.xy, id.z, vec4<f32>(found[id.y], found[id.y + 1u]));
-    } else if id.y + 1u == POINTS {
-        textureStore(table, vec2<u32>(id.x, size.y - 1u), id.z, vec4<f32>(found[id.y], found[id.y]));
+    // what the scene has no lobe for
+    for (; layer < textureNumLayers(table); layer++) {
+        if id.y < size.y {
+            textureStore(table, id.xy, layer, vec4<f32>(0.0));
+        }
     }
 }

@@ -36,6 +36,8 @@ pub(crate) enum Verb {
     Probe(Probe),
     /// Run image tests, pass by pass: the first pass that diverges is named
     Test(Test),
+    /// Put mistakes into the shaders of passes, and see whether image tests notice and name the right pass
+    Mutants(Mutants),
     /// Compare two image files
     Diff(Diff),
     /// List the adapters of this machine
@@ -56,6 +58,7 @@ impl Verb {
             Verb::Compare(verb) => verb.adapter.as_deref(),
             Verb::Probe(verb) => verb.adapter.as_deref(),
             Verb::Test(verb) => verb.adapter.as_deref(),
+            Verb::Mutants(verb) => verb.adapter.as_deref(),
             _ => None,
         }
     }
@@ -101,9 +104,9 @@ pub(crate) struct Render {
 
 #[derive(Debug, Args)]
 pub(crate) struct Check {
-    /// Graph files
+    /// Graph files; scene files (`.scene.ron`) and comparisons (`.compare.ron`) as well
     #[arg(value_name = "GRAPH", required = true)]
-    pub graphs: Vec<PathBuf>,
+    pub files: Vec<PathBuf>,
     /// How mistakes are written
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
@@ -277,6 +280,45 @@ pub(crate) struct Test {
     /// Render again, so many times
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=1000))]
     pub repeat: u32,
+    /// The adapter whose name holds this
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+}
+
+/// Put mistakes into the shaders of passes, one at a time, and see whether image tests notice.
+///
+/// A mistake: a sign flipped, a factor dropped, two arguments or min and max swapped, a constant changed. A mutant is killed
+/// where a test fails and names the pass that was changed, and no other. Each is shown to properties, references on the CPU
+/// and relations first, then to goldens as well: both figures are told. What is not killed is listed with its place and why
+/// it survives; what a person knows about it stands in `mutants.ron` beside the plugin's manifest, and kills nothing.
+///
+/// Exit code 1 where fewer are killed than --at-least and --at-least-without-goldens say.
+#[derive(Debug, Args)]
+pub(crate) struct Mutants {
+    /// Test files, or folders that hold some; the working directory without any
+    #[arg(value_name = "PATH")]
+    pub paths: Vec<PathBuf>,
+    /// Only passes whose name holds TEXT: `airlight.`, `core.tonemap`
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    pub filter: String,
+    /// Mutants of each pass
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub per_pass: u32,
+    /// Draws them: the same ones each time
+    #[arg(long, value_name = "SEED", default_value_t = 1)]
+    pub seed: u64,
+    /// Leave goldens out: properties, references on the CPU and relations alone
+    #[arg(long)]
+    pub no_goldens: bool,
+    /// The part that must be killed
+    #[arg(long, value_name = "PERCENT", default_value_t = 95.0)]
+    pub at_least: f64,
+    /// The part that must be killed without goldens
+    #[arg(long, value_name = "PERCENT", default_value_t = 80.0)]
+    pub at_least_without_goldens: f64,
+    /// Write the figures and every mutant to FILE
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
     /// The adapter whose name holds this
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,

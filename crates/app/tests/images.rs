@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use libtest_mimic::{Arguments, Failed, Trial};
 use tyndall_plugin::SearchPath;
-use tyndall_testing::{Found, Options, Session, discover};
+use tyndall_testing::{Found, Options, Session, Told, discover};
 
 fn main() -> ExitCode {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -36,14 +36,14 @@ fn name(path: &Path) -> String {
     name.strip_suffix(".test.ron").unwrap_or(&name).to_owned()
 }
 
-fn run(shared: &Mutex<Option<Session>>, path: &Path) -> Result<(), Failed> {
+fn run(shared: &Mutex<Option<(Session, Told)>>, path: &Path) -> Result<(), Failed> {
     let mut session = shared.lock().unwrap_or_else(PoisonError::into_inner);
     if session.is_none() {
         // As the program looks for plugins where it is started.
         let search = vec![SearchPath { path: PathBuf::from("plugins"), required: false }];
-        *session = Some(Session::new(tyndall::shipped(), search, None)?);
+        *session = Some((Session::new(tyndall::shipped(), search, None)?, Told::default()));
     }
-    let Some(session) = session.as_mut() else { return Err("there is no session".into()) };
+    let Some((session, told)) = session.as_mut() else { return Err("there is no session".into()) };
     let outcome = session.run(path, &Options::default());
-    if outcome.passed() { Ok(()) } else { Err(Failed::from(outcome.text())) }
+    if outcome.passed() { Ok(()) } else { Err(Failed::from(told.text(&outcome))) }
 }

@@ -26,6 +26,12 @@ struct PipelineKey {
 }
 
 impl PipelineCache {
+    /// Lets go of what was made of a shader, which will not come again.
+    pub fn forget(&mut self, shader: u64) {
+        self.modules.remove(&shader);
+        self.pipelines.retain(|key, _| key.shader != shader);
+    }
+
     /// The shader as a module of the device.
     pub(crate) fn module(
         &mut self,

@@ -162,6 +162,12 @@ impl Executor {
         Ok(())
     }
 
+    /// Forgets what a pass has written: it runs in the next frame though nothing has changed. What others have written is
+    /// still there, as far as the plan keeps it.
+    pub fn forget(&mut self, pass: u32) {
+        self.freshness.forget_pass(&self.plan, pass);
+    }
+
     /// Records and submits one frame. Does not wait for it unless it is timed on the GPU.
     ///
     /// # Errors

@@ -83,6 +83,13 @@ impl Freshness {
         self.given.fill(false);
     }
 
+    /// What a pass has written is not there any more: it runs in the next frame, and nothing else does for that.
+    pub(crate) fn forget_pass(&mut self, plan: &Plan, pass: u32) {
+        for port in plan.outputs_of(pass) {
+            self.holds[plan.ports[port as usize].slot as usize] = None;
+        }
+    }
+
     /// The port's slot holds what was put there from outside; its pass need not run for it any more.
     pub(crate) fn give(&mut self, plan: &Plan, port: usize) {
         self.given[port] = true;

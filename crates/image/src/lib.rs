@@ -15,6 +15,7 @@ mod atomic;
 mod error;
 mod exr_read;
 mod exr_write;
+mod folder;
 mod frames;
 mod hdr;
 mod image;
@@ -28,6 +29,7 @@ mod srgb;
 pub use atomic::{Writer, write_atomically, write_bytes};
 pub use error::{Error, Kind};
 pub use exr_write::Precision;
+pub use folder::NewFolder;
 pub use frames::{frame_path, has_frame_number};
 pub use image::{Image, Meaning};
 pub use kind::{FileKind, supported};
@@ -56,6 +58,21 @@ pub fn write(path: &Path, image: &Image, meaning: Meaning) -> Result<(), Error> 
         FileKind::Hdr => hdr::write(path, image, meaning),
         FileKind::Npy => npy::write_image(path, image, meaning),
     }
+}
+
+/// `image` as the bytes of a `.png` file.
+///
+/// # Errors
+/// An image whose `data` does not fit its size, or has more than one layer; `path` only names it in errors.
+pub fn encode_png(path: &Path, image: &Image, meaning: Meaning) -> Result<Vec<u8>, Error> {
+    image.check(path)?;
+    if image.layers != 1 {
+        return Err(Error::new(Kind::Usage, path, format!("{} layers do not fit into one picture", image.layers)));
+    }
+    let mut bytes = Vec::new();
+    png::write_to(&mut bytes, image, meaning)
+        .map_err(|error| Error::new(Kind::Input, path, format!("cannot be encoded: {error}")))?;
+    Ok(bytes)
 }
 
 /// Writes `image` as an `.exr` file with numbers of this precision, whole or not at all.

@@ -65,7 +65,7 @@ pub fn absolute(image: &Image, reference: &Image, tolerance: f64) -> Result<Abso
 /// # Errors
 /// If the images are of different shape.
 pub fn differing_bits(image: &Image, reference: &Image) -> Result<usize, Incomparable> {
-    shapes(image, reference)?;
+    same_shape(image, reference)?;
     Ok(image.data.iter().zip(&reference.data).filter(|(a, b)| a.to_bits() != b.to_bits()).count())
 }
 
@@ -161,11 +161,15 @@ fn relative(a: f64, b: f64, floor: f64) -> f64 {
 }
 
 fn pairs<'a>(image: &'a Image, reference: &'a Image) -> Result<impl Iterator<Item = (f64, f64)> + 'a, Incomparable> {
-    shapes(image, reference)?;
+    same_shape(image, reference)?;
     Ok(image.data.iter().zip(&reference.data).map(|(&a, &b)| (f64::from(a), f64::from(b))))
 }
 
-fn shapes(image: &Image, reference: &Image) -> Result<(), Incomparable> {
+/// Nothing where two images have as many texels, layers and channels, and any at all.
+///
+/// # Errors
+/// If they are of different shape, or empty.
+pub fn same_shape(image: &Image, reference: &Image) -> Result<(), Incomparable> {
     let shape = |image: &Image| {
         let Image { width, height, layers, channels, data } = image;
         (format!("{width}x{height}x{layers} with {channels} channels"), data.len())

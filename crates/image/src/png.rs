@@ -12,13 +12,15 @@ use crate::{Error, Image, Meaning, limits, linear_from_srgb, srgb_from_linear, w
 /// Writes the first layer: grey for a scalar, else RGB or RGBA. Numbers are clamped to 0..1, NaN is 0; all but
 /// [`Meaning::Display`] is encoded as sRGB, alpha never.
 pub(crate) fn write(path: &Path, image: &Image, meaning: Meaning) -> Result<(), Error> {
+    write_atomically(path, |writer| write_to(writer, image, meaning))
+}
+
+pub(crate) fn write_to(writer: impl io::Write, image: &Image, meaning: Meaning) -> io::Result<()> {
     let (kind, bytes) = encode(image, meaning);
-    write_atomically(path, |writer| {
-        let encoder = PngEncoder::new_with_quality(writer, CompressionType::Fast, FilterType::Adaptive);
-        encoder.write_image(&bytes, image.width, image.height, kind).map_err(|error| match error {
-            image::ImageError::IoError(error) => error,
-            other => io::Error::other(other.to_string()),
-        })
+    let encoder = PngEncoder::new_with_quality(writer, CompressionType::Fast, FilterType::Adaptive);
+    encoder.write_image(&bytes, image.width, image.height, kind).map_err(|error| match error {
+        image::ImageError::IoError(error) => error,
+        other => io::Error::other(other.to_string()),
     })
 }
 

@@ -15,6 +15,10 @@ pub enum SceneFeature {
     Directional,
     /// Phong lobes of more than one shininess.
     SeveralShininesses,
+    /// More shininesses than there are tables for.
+    TooManyShininesses,
+    /// More shapes of spots than there are tables for.
+    TooManySpots,
     /// A medium that takes light.
     Medium,
     /// More than 96 lights.
@@ -22,14 +26,30 @@ pub enum SceneFeature {
 }
 
 impl SceneFeature {
-    const NAMED: [(&str, Self); 6] = [
-        ("Point", Self::Point),
-        ("Spot", Self::Spot),
-        ("Directional", Self::Directional),
-        ("SeveralShininesses", Self::SeveralShininesses),
-        ("Medium", Self::Medium),
-        ("ManyLights", Self::ManyLights),
+    const ALL: [Self; 8] = [
+        Self::Point,
+        Self::Spot,
+        Self::Directional,
+        Self::SeveralShininesses,
+        Self::TooManyShininesses,
+        Self::TooManySpots,
+        Self::Medium,
+        Self::ManyLights,
     ];
+
+    /// As a manifest names it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Point => "Point",
+            Self::Spot => "Spot",
+            Self::Directional => "Directional",
+            Self::SeveralShininesses => "SeveralShininesses",
+            Self::TooManyShininesses => "TooManyShininesses",
+            Self::TooManySpots => "TooManySpots",
+            Self::Medium => "Medium",
+            Self::ManyLights => "ManyLights",
+        }
+    }
 }
 
 /// What a pass does instead, where the scene has such a thing.
@@ -48,9 +68,9 @@ pub(crate) fn limits(decoder: &mut Decoder<'_>, node: &Node) -> Vec<Limit> {
 }
 
 fn limit(decoder: &mut Decoder<'_>, node: &Node) -> Option<Limit> {
-    let names = SceneFeature::NAMED.map(|(name, _)| name);
+    let names = SceneFeature::ALL.map(SceneFeature::name);
     let (name, content) = decoder.variant(node, "something that a scene can have", &names)?;
-    let (_, feature) = SceneFeature::NAMED.into_iter().find(|(known, _)| *known == name)?;
+    let feature = SceneFeature::ALL.into_iter().find(|feature| feature.name() == name)?;
     let content = content.map(arguments).unwrap_or_default();
     let [text] = content.as_slice() else {
         decoder.wrong_type(node, &format!("`{name}(\"what the pass does instead\")`"));

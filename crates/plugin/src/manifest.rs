@@ -3,10 +3,12 @@
 use std::fmt;
 use std::sync::Arc;
 
-use tyndall_document::{Decoder, Diagnostic, Diagnostics, Node, Source, Span, parse};
+use tyndall_document::{Decoder, Diagnostic, Diagnostics, Node, Source, Span, Value, parse};
 
 use crate::codes::{BAD_PLUGIN_NAME, BAD_VERSION};
+use crate::dispatch::Over;
 use crate::limits::{self, Limit};
+use crate::ports::arguments;
 
 /// A semantic version.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -50,7 +52,7 @@ pub(crate) struct ManifestPass {
     pub origin: String,
     pub shader: String,
     pub shader_span: Span,
-    pub over: Option<(String, Span)>,
+    pub over: Option<(Over, Span)>,
     pub limits: Vec<Limit>,
     pub ports: Vec<Entry>,
     pub params: Vec<Entry>,
@@ -124,7 +126,7 @@ fn pass(decoder: &mut Decoder<'_>, entry: Entry) -> Option<ManifestPass> {
     let shader = fields.required(decoder, "shader");
     let shader_span = shader.map_or(entry.value.span, |node| node.span);
     let shader = shader.and_then(|node| decoder.text(node)).map(str::to_owned);
-    let over = fields.get("dispatch").and_then(|node| Some((decoder.text(node)?.to_owned(), node.span)));
+    let over = fields.get("dispatch").and_then(|node| Some((over(decoder, node)?, node.span)));
     let origin = text(decoder, "source");
     let limits = fields.get("limits").map(|node| limits::limits(decoder, node)).unwrap_or_default();
     let ports = entries(decoder, fields.get("ports"));
@@ -145,6 +147,27 @@ fn pass(decoder: &mut Decoder<'_>, entry: Entry) -> Option<ManifestPass> {
         presets,
     };
     valid.then_some(pass)
+}
+
+/// The name of a port, or a number of threads in x, and in y and z.
+fn over(decoder: &mut Decoder<'_>, node: &Node) -> Option<Over> {
+    if let Value::Text(port) = &node.value {
+        return Some(Over::Port(port.clone()));
+    }
+    let count = |node: &Node| match node.value {
+        Value::Number(number) => number.integer.and_then(|count| u32::try_from(count).ok()).filter(|count| *count > 0),
+        _ => None,
+    };
+    let counts: Option<Vec<u32>> = arguments(node).into_iter().map(count).collect();
+    match counts.as_deref() {
+        Some(&[x]) => Some(Over::Threads([x, 1, 1])),
+        Some(&[x, y]) => Some(Over::Threads([x, y, 1])),
+        Some(&[x, y, z]) => Some(Over::Threads([x, y, z])),
+        _ => {
+            decoder.wrong_type(node, "the name of a port, or numbers of threads: (x, y, z)");
+            None
+        }
+    }
 }
 
 fn entries(decoder: &mut Decoder<'_>, node: Option<&Node>) -> Vec<Entry> {

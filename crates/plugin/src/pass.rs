@@ -57,6 +57,8 @@ pub struct ReferenceInput<'a> {
     pub params: BTreeMap<&'a str, ParamValue>,
     /// The scene in this frame; `None` where the graph has none.
     pub scene: Option<&'a tyndall_shaders::scene::Scene>,
+    /// The triangles of the scene in this frame; `None` where the pass reads none.
+    pub surfaces: Option<&'a tyndall_shaders::scene::Surfaces>,
 }
 
 impl ReferenceInput<'_> {
@@ -97,6 +99,14 @@ impl ReferenceInput<'_> {
     /// Where there is none.
     pub fn scene(&self) -> Result<&tyndall_shaders::scene::Scene, String> {
         self.scene.ok_or_else(|| "the graph has no scene".to_owned())
+    }
+
+    /// The triangles of the scene.
+    ///
+    /// # Errors
+    /// Where there is no scene, or the pass reads no triangles.
+    pub fn surfaces(&self) -> Result<&tyndall_shaders::scene::Surfaces, String> {
+        self.surfaces.ok_or_else(|| "the pass reads no triangles".to_owned())
     }
 }
 

@@ -1,17 +1,18 @@
 //! Every pass that a graph can use, linked and checked, and how to make each ready.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::hash::Hasher;
 use std::sync::Arc;
 
+use siphasher::sip::SipHasher13;
 use tyndall_document::{Diagnostic, Diagnostics, Place, near};
 use tyndall_gpu::{GpuError, Program, Programs, Setup};
 use tyndall_graph::descriptor::{PRESET, PassDescriptor};
 use tyndall_graph::{Catalogue, PictureSize};
-use tyndall_shader::{Library, check_all, link};
+use tyndall_shader::{Library, Linked, check_all, link};
 
 use crate::codes::{BAD_DESCRIPTOR, DUPLICATE_PLUGIN, MISSING_SHADER};
-use crate::dispatch;
+use crate::dispatch::{self, Over};
 use crate::folder::{Folder, MANIFEST, Origin};
 use crate::limits::Limit;
 use crate::manifest::{self, Manifest, ManifestPass, Version};
@@ -19,13 +20,14 @@ use crate::pass::{MakeProgram, Plugin, Reference, RustPass, Shaders};
 use crate::ports::{self, Need};
 
 /// Every pass of every plugin.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Registry {
     catalogue: Catalogue,
     passes: BTreeMap<String, RegistryPass>,
 }
 
 /// A pass that is ready to be used in graphs.
+#[derive(Clone)]
 pub struct RegistryPass {
     /// What it declares.
     pub descriptor: Arc<PassDescriptor>,
@@ -47,9 +49,17 @@ pub struct RegistryPass {
     make: Make,
 }
 
+#[derive(Clone)]
 enum Make {
-    Dispatch { file: String, over: String },
-    Rust(Box<MakeProgram>),
+    Dispatch { file: String, over: Over },
+    Rust(Arc<MakeProgram>),
+}
+
+impl RegistryPass {
+    /// Its linked shaders, by the name of their file.
+    pub fn shaders(&self) -> impl Iterator<Item = (&str, &Arc<Linked>)> {
+        self.shaders.0.iter().map(|(file, linked)| (file.as_str(), linked))
+    }
 }
 
 impl Registry {
@@ -109,6 +119,17 @@ impl Registry {
     /// The pass of this name.
     pub fn pass(&self, name: &str) -> Option<&RegistryPass> {
         self.passes.get(name)
+    }
+
+    /// The same passes, but of one of them one shader replaced by another that binds and declares the same.
+    #[must_use]
+    pub fn with_shader(&self, pass: &str, file: &str, shader: &Arc<Linked>) -> Self {
+        let mut registry = self.clone();
+        if let Some(pass) = registry.passes.get_mut(pass) {
+            pass.shaders.0.insert(file.to_owned(), shader.clone());
+            pass.fingerprint = fingerprint(&pass.shaders);
+        }
+        registry
     }
 
     /// The name that was probably meant.
@@ -192,12 +213,12 @@ impl Builder<'_> {
             return;
         }
         let over = match &pass.over {
-            Some((port, span)) if descriptor.port(port).is_none() => {
+            Some((Over::Port(port), span)) if descriptor.port(port).is_none() => {
                 let message = format!("`dispatch` names `{port}`, which is no port of this pass");
                 self.out.push(Diagnostic::error(crate::codes::BAD_PORT, manifest.source.place(*span), message));
                 return;
             }
-            Some((port, _)) => Some(port.clone()),
+            Some((over, _)) => Some(over.clone()),
             None => dispatch::default_over(&descriptor),
         };
         let Some(over) = over else {
@@ -218,7 +239,7 @@ impl Builder<'_> {
     fn rust_pass(&mut self, manifest: &Manifest, folder: &Folder, library: &Library, pass: RustPass) {
         let place = Place::File(manifest.source.name().to_owned());
         let Some(shaders) = self.link(folder, library, &pass.shaders, &place) else { return };
-        let make = Make::Rust(pass.make);
+        let make = Make::Rust(Arc::from(pass.make));
         let candidate = Candidate { descriptor: pass.descriptor, shaders, make, needs: Vec::new(), limits: Vec::new() };
         self.insert(manifest, folder, candidate, &place);
     }
@@ -285,8 +306,8 @@ impl Builder<'_> {
 }
 
 fn fingerprint(shaders: &Shaders) -> u64 {
-    let mut hasher = DefaultHasher::new();
+    let mut hasher = SipHasher13::new();
     let all: BTreeSet<u64> = shaders.0.values().map(|linked| linked.fingerprint).collect();
-    all.hash(&mut hasher);
+    all.iter().for_each(|fingerprint| hasher.write(&fingerprint.to_le_bytes()));
     hasher.finish()
 }

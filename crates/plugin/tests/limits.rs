@@ -1,4 +1,4 @@
-//! What a manifest says of scenes that a pass does not do justice to.
+//! What a manifest says of scenes that a pass does not do justice to, and of what it runs over.
 
 use std::sync::Arc;
 
@@ -40,6 +40,8 @@ fn mistakes_have_a_place_and_a_hint() {
         ("[Spot]", "error[wrong-type]: expected `Spot(\"what the pass does instead\")`"),
         ("[Spot(3)]", "error[wrong-type]: expected a string, found the number 3"),
         ("(1, 2)", "error[wrong-type]: expected a list"),
+        ("[], dispatch: (0, 3)", "error[wrong-type]: expected the name of a port, or numbers of threads: (x, y, z)"),
+        ("[], dispatch: 1.5", "error[wrong-type]: expected the name of a port, or numbers of threads: (x, y, z)"),
     ] {
         let text = registry(limits).err().unwrap_or_else(|| panic!("{limits} is accepted"));
         assert!(text.contains(expected), "{limits}: {text}");

@@ -275,3 +275,20 @@ fn a_depth_buffer_reads_back() {
     assert_eq!(bits(&raster).len(), 81);
     assert!(depth.data.iter().zip(&raster.data).all(|(depth, raster)| depth.is_finite() == (*raster > 0.0)));
 }
+
+/// A thread writes a row of its own, as many as the manifest says.
+#[test]
+fn a_dispatch_may_say_its_threads() {
+    let shader = "var result: texture_storage_2d<r32float, write>;
+        @compute @workgroup_size(1, 3) fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+            for (var x = 0u; x < textureDimensions(result).x; x++) {
+                textureStore(result, vec2<u32>(x, id.y), vec4<f32>(f32(10u * id.y + x)));
+            }
+        }";
+    let pass = "dispatch: (1, 3), ports: { \"result\": (about: \"Numbers\", class: Scalar, size: Fixed(2, 3)) }";
+    let registry = one_pass(pass, shader);
+    let text = r#"(version: 1, size: (1, 1), passes: { "p": (use: "t.p") }, outputs: { "result": "p.result" })"#;
+    let mut executor = executor(&gpu(), &registry, planned(&registry, text, |_, _| ()));
+    executor.frame(FrameOptions::default()).unwrap();
+    assert_eq!(content(&executor, "result").data, [0.0, 1.0, 10.0, 11.0, 20.0, 21.0]);
+}

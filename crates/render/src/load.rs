@@ -9,8 +9,8 @@ use tyndall_document::{Diagnostic, Diagnostics, Place, Source};
 use tyndall_graph::descriptor::ParamValue;
 use tyndall_graph::{Graph, Keep, Override, Overrides, ParamSetting, Plan, PlanOptions, Roots};
 use tyndall_plugin::{Registry, SceneFeature};
-use tyndall_scene::Scene;
 use tyndall_scene::model::LightKind;
+use tyndall_scene::{SHININESSES_MAX, SPOTS_MAX, Scene};
 
 use crate::codes::{INPUT_NEEDED, LIMIT, NO_SCENE, NOT_HOMOGENEOUS};
 use crate::error::Error;
@@ -92,11 +92,9 @@ fn has(scene: &Scene, feature: SceneFeature) -> bool {
         SceneFeature::Medium => scene.medium.as_ref().is_some_and(|medium| medium.extinction.max_element() > 0.0),
         SceneFeature::Spot => scene.lights.iter().any(|light| matches!(light.kind, LightKind::Spot { .. })),
         SceneFeature::Directional => scene.lights.iter().any(|light| light.kind == LightKind::Directional),
-        SceneFeature::SeveralShininesses => {
-            let mut shiny = scene.materials.iter().filter(|material| material.specular.max_element() > 0.0);
-            let first = shiny.next().map(|material| material.shininess);
-            shiny.any(|material| Some(material.shininess) != first)
-        }
+        SceneFeature::SeveralShininesses => scene.shininess_count() > 1,
+        SceneFeature::TooManyShininesses => scene.shininess_count() > SHININESSES_MAX,
+        SceneFeature::TooManySpots => scene.spot_shape_count() > SPOTS_MAX,
     }
 }
 

@@ -10,10 +10,10 @@ pub const COSINE_LOBES_MAX: usize = SHININESSES_MAX + SPOTS_MAX;
 
 /// Of more shininesses, this many between the least and the largest stand for them, each the same factor above the one
 /// before: a shininess from 1 to 1000 is then off by 17 % at most. What a lobe reflects in all stays right.
-const SHININESSES_MAX: usize = 23;
+pub const SHININESSES_MAX: usize = 23;
 
 /// Of more shapes of spots, the first ones stand for all: each of the others by the one of most alike mean cosine.
-const SPOTS_MAX: usize = 8;
+pub const SPOTS_MAX: usize = 8;
 
 /// The least shininess where many stand for more: below it a lobe hardly changes.
 const LEAST: f32 = 0.1;
@@ -25,13 +25,8 @@ pub(crate) struct CosineLobes {
 
 impl CosineLobes {
     pub fn of(materials: &[Material], lights: &[FrameLight]) -> Self {
-        let mut items: Vec<CosineLobe> = shininesses(materials).into_iter().map(phong).collect();
-        let phong_lobes = items.len();
-        for spot in lights.iter().filter_map(spot) {
-            if !items.contains(&spot) && items.len() < phong_lobes + SPOTS_MAX {
-                items.push(spot);
-            }
-        }
+        let mut items: Vec<CosineLobe> = represented(shininesses(materials)).into_iter().map(phong).collect();
+        items.extend(spots(lights.iter().map(|light| &light.kind)).into_iter().take(SPOTS_MAX));
         Self { items }
     }
 
@@ -44,7 +39,7 @@ impl CosineLobes {
 
     /// The number of a spot's lobe, from 1; 0 of other lights.
     pub fn of_light(&self, light: &FrameLight) -> u32 {
-        spot(light).map_or(0, |spot| self.nearest(spot, |lobe| (mean_cosine(lobe) - mean_cosine(&spot)).abs()))
+        spot(&light.kind).map_or(0, |spot| self.nearest(spot, |lobe| (mean_cosine(lobe) - mean_cosine(&spot)).abs()))
     }
 
     fn nearest(&self, wanted: CosineLobe, distance: impl Fn(&CosineLobe) -> f32) -> u32 {
@@ -55,10 +50,27 @@ impl CosineLobes {
     }
 }
 
-fn shininesses(materials: &[Material]) -> Vec<f32> {
+/// The distinct shininesses of Phong lobes, growing.
+pub(crate) fn shininesses(materials: &[Material]) -> Vec<f32> {
     let mut values: Vec<f32> = materials.iter().filter(|m| has_lobe(m)).map(|m| m.shininess as f32).collect();
     values.sort_by(f32::total_cmp);
     values.dedup();
+    values
+}
+
+/// The distinct shapes of spots, in the order of the lights.
+pub(crate) fn spots<'a>(lights: impl Iterator<Item = &'a LightKind>) -> Vec<CosineLobe> {
+    let mut items = Vec::new();
+    for spot in lights.filter_map(spot) {
+        if !items.contains(&spot) {
+            items.push(spot);
+        }
+    }
+    items
+}
+
+/// Those shininesses, or as many as there can be which stand for them.
+fn represented(values: Vec<f32>) -> Vec<f32> {
     match values[..] {
         [least, .., largest] if values.len() > SHININESSES_MAX => {
             let (low, high) = (least.max(LEAST).ln(), largest.max(LEAST).ln());
@@ -77,8 +89,8 @@ fn phong(shininess: f32) -> CosineLobe {
     CosineLobe { exponent: shininess, cos_cutoff: 0.0, is_spot: 0, pad0: 0 }
 }
 
-fn spot(light: &FrameLight) -> Option<CosineLobe> {
-    let LightKind::Spot { exponent, cutoff } = light.kind else { return None };
+fn spot(kind: &LightKind) -> Option<CosineLobe> {
+    let LightKind::Spot { exponent, cutoff } = *kind else { return None };
     let (exponent, cos_cutoff) = (exponent as f32, cosine_of_cutoff(cutoff));
     // beyond a right angle only a spot with n = 0 shines
     let cos_cutoff = if exponent > 0.0 { cos_cutoff.max(0.0) } else { cos_cutoff };

@@ -259,6 +259,7 @@ fn encoded_light(light: &FrameLight, lobes: &CosineLobes) -> layout::Light {
         direction: floats(light.direction),
         exponent: exponent as f32,
         cos_cutoff: cosine_of_cutoff(cutoff),
+        sin_cutoff: cutoff.sin() as f32,
         lobe: lobes.of_light(light),
         ..Default::default()
     }

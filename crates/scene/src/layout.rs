@@ -136,12 +136,12 @@ pub struct Light {
     pub exponent: f32,
     /// Cosine of the half-angle.
     pub cos_cutoff: f32,
+    /// Sine of the half-angle.
+    pub sin_cutoff: f32,
     /// Of a spot, among the cosine lobes, from 1.
     pub lobe: u32,
     /// 0.
     pub pad0: u32,
-    /// 0.
-    pub pad1: u32,
 }
 
 /// What stands before the elements of every list.

@@ -35,7 +35,7 @@ mod shadows;
 mod twin;
 
 pub use self::codes::CODES;
-pub use self::cosine_lobes::COSINE_LOBES_MAX;
+pub use self::cosine_lobes::{COSINE_LOBES_MAX, SHININESSES_MAX, SPOTS_MAX};
 pub use self::encode::{Encoded, SCENE_DATA, phase_table};
 pub use self::frame::{Bounds, Frame, FrameLight, View};
 pub use self::mesh::Mesh;

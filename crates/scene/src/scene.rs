@@ -7,6 +7,7 @@ use glam::DVec3;
 use tyndall_document::{Decoder, Diagnostics, Source, parse};
 
 use crate::adjacency::Adjacency;
+use crate::cosine_lobes;
 use crate::decode;
 use crate::encode::{Encoded, SCENE_DATA, is_derived};
 use crate::frame::{Bounds, Frame};
@@ -106,6 +107,16 @@ impl Scene {
     /// Whether the density of the medium falls with the height.
     pub fn has_height_fog(&self) -> bool {
         self.height_fog.falloff > 0.0
+    }
+
+    /// How many shininesses its Phong lobes have.
+    pub fn shininess_count(&self) -> usize {
+        cosine_lobes::shininesses(&self.materials).len()
+    }
+
+    /// How many of its spots differ in exponent or cutoff.
+    pub fn spot_shape_count(&self) -> usize {
+        cosine_lobes::spots(self.lights.iter().map(|light| &light.kind)).len()
     }
 
     /// Everything that depends on the time, in world space.

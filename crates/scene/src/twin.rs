@@ -1,16 +1,21 @@
 //! A scene at one time as the twins of shaders take it.
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use tyndall_shaders::scene as twin;
 
+use crate::cosine_lobes::CosineLobes;
 use crate::frame::{Frame, FrameLight, View};
-use crate::model::LightKind;
+use crate::layout::CosineLobe;
+use crate::model::{Instance, LightKind, Material, Texture, Wrap};
 use crate::scene::Scene;
 
 impl Scene {
-    /// What [`Scene::encode`] gives shaders, in double precision, for the twins of shaders; of surfaces the shadows alone.
+    /// What [`Scene::encode`] gives shaders, in double precision, for the twins of shaders; of surfaces the
+    /// shadows alone.
     pub fn twin(&self, time: f64, aspect: f64) -> twin::Scene {
         let frame = self.at(time);
+        let shiny = self.materials.iter().filter(|material| material.specular.max_element() > 0.0);
+        let lobes = CosineLobes::of(&self.materials, &frame.lights);
         twin::Scene {
             camera: camera(&frame.camera, aspect),
             medium: self.medium.unwrap_or(twin::Medium {
@@ -23,11 +28,13 @@ impl Scene {
             background: self.background,
             lights: frame.lights.iter().map(light).collect(),
             casters: self.casters(&frame),
+            shininesses: shiny.map(|material| material.shininess).collect(),
+            cosine_lobes: lobes.items.iter().map(cosine_lobe).collect(),
         }
     }
 
     /// The triangles of all objects that cast shadows, in world space.
-    pub(crate) fn casters(&self, frame: &Frame) -> Vec<twin::Triangle> {
+    pub(crate) fn casters(&self, frame: &Frame) -> Vec<twin::Caster> {
         let instances = self.instances.iter().zip(&frame.transforms).filter(|(instance, _)| instance.casts_shadow);
         let triangles = instances.flat_map(|(instance, transform)| {
             let corner = |index: u32| transform.transform_point3(instance.mesh.positions[index as usize].as_dvec3());
@@ -35,6 +42,64 @@ impl Scene {
         });
         triangles.collect()
     }
+
+    /// The triangles that [`Scene::encode`] gives shaders, and what they look like, in double precision.
+    pub fn surfaces(&self, time: f64) -> twin::Surfaces {
+        let frame = self.at(time);
+        let lobes = CosineLobes::of(&self.materials, &frame.lights);
+        let instances = self.instances.iter().zip(&frame.transforms);
+        twin::Surfaces {
+            triangles: instances.flat_map(|(instance, transform)| triangles(instance, *transform)).collect(),
+            materials: self.materials.iter().map(|of| material(of, lobes.of_material(of))).collect(),
+            textures: self.textures.iter().map(texture).collect(),
+        }
+    }
+}
+
+/// Triangles of an instance where it stands, turned around where its transform mirrors.
+fn triangles(instance: &Instance, transform: DAffine3) -> impl Iterator<Item = twin::Triangle> + '_ {
+    let (mesh, mirrored) = (&instance.mesh, transform.matrix3.determinant() < 0.0);
+    let normals = transform.matrix3.inverse().transpose();
+    let vertex = move |index: u32| {
+        let index = index as usize;
+        twin::Vertex {
+            position: transform.transform_point3(mesh.positions[index].as_dvec3()),
+            normal: (normals * mesh.normals[index].as_dvec3()).normalize(),
+            uv: mesh.uvs[index].as_dvec2(),
+        }
+    };
+    mesh.triangles.iter().map(move |&[a, b, c]| {
+        let (b, c) = if mirrored { (c, b) } else { (b, c) };
+        twin::Triangle { corners: [a, b, c].map(&vertex), material: instance.material }
+    })
+}
+
+fn material(material: &Material, lobe: u32) -> twin::Material {
+    let Material { diffuse, specular, shininess, texture } = *material;
+    twin::Material { diffuse, specular, shininess, lobe, texture }
+}
+
+fn texture(texture: &Texture) -> twin::Texture {
+    let wrap = |wrap: Wrap| match wrap {
+        Wrap::Repeat => twin::Wrap::Repeat,
+        Wrap::Clamp => twin::Wrap::Clamp,
+        Wrap::Mirror => twin::Wrap::Mirror,
+    };
+    let rgb = |texel: &u32| {
+        let [r, g, b, _] = texel.to_le_bytes();
+        [r, g, b]
+    };
+    twin::Texture {
+        width: texture.width,
+        height: texture.height,
+        wrap: texture.wrap.map(wrap),
+        texels: texture.texels.iter().map(rgb).collect(),
+    }
+}
+
+fn cosine_lobe(lobe: &CosineLobe) -> twin::CosineLobe {
+    let [exponent, cos_cutoff] = [lobe.exponent, lobe.cos_cutoff].map(f64::from);
+    twin::CosineLobe { exponent, cos_cutoff, is_spot: lobe.is_spot != 0 }
 }
 
 fn camera(view: &View, aspect: f64) -> twin::Camera {

@@ -41,7 +41,10 @@ fn structs_match_the_shader() {
     same!(structs, Medium { extinction, pad0, scattering, pad1 });
     same!(structs, Lobe { rho, scale, squared, mu_squared });
     same!(structs, Phase { legendre, lobe_count, pad0, pad1, pad2, lobes });
-    same!(structs, Light { position, kind, intensity, radius, direction, exponent, cos_cutoff, lobe, pad0, pad1 });
+    same!(
+        structs,
+        Light { position, kind, intensity, radius, direction, exponent, cos_cutoff, sin_cutoff, lobe, pad0 }
+    );
     same!(structs, CosineLobe { exponent, cos_cutoff, is_spot, pad0 });
     same!(structs, Vertex { position, u, normal, v });
     same!(structs, Object { material, casts_shadow, pad0, pad1 });

@@ -18,12 +18,13 @@
 //! what no entry point uses, what is left is numbered, and validated once more: wgpu gets the smallest module, and a
 //! variable of an imported file that is not used needs no binding.
 
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::hash::Hasher;
 use std::sync::Arc;
 
 use naga::compact::{KeepUnused, compact};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Module, ResourceBinding};
+use siphasher::sip::SipHasher13;
 use tyndall_document::{Diagnostic, Place, Source};
 
 use crate::assemble::{Assembly, assemble};
@@ -55,9 +56,9 @@ pub struct Linked {
     pub params: Vec<Param>,
     /// Variables and overrides of the root that no entry point uses.
     pub unused: Vec<Unused>,
-    /// Of the linked text; the same in every process of one build of the program.
+    /// Of the linked text; the same in every process, with every toolchain.
     pub fingerprint: u64,
-    map: Map,
+    pub(crate) map: Map,
 }
 
 /// Something that the root declares and no entry point uses.
@@ -170,8 +171,8 @@ fn finish(
     if !problems.is_empty() {
         return Err(problems);
     }
-    let mut hasher = DefaultHasher::new();
-    assembly.text.hash(&mut hasher);
+    let mut hasher = SipHasher13::new();
+    hasher.write(assembly.text.as_bytes());
     Ok(Linked {
         entry_points: entry_points(&module, &info, &resources),
         module,

@@ -1,17 +1,15 @@
 //! What a port was made from, as numbers that change when it does.
 
-use std::collections::BTreeMap;
-use std::hash::{DefaultHasher, Hash, Hasher};
-
 use tyndall_graph::descriptor::{ParamValue, Role};
-use tyndall_graph::{ParamSetting, Plan};
+use tyndall_graph::{ParamSetting, Plan, Resource};
 use tyndall_plugin::Registry;
 use tyndall_scene::Encoded;
 
+use crate::digest::Digest;
+
 /// What a pass and all passes upstream of it compute from, in four parts that change for different reasons.
 ///
-/// The same in every plan that holds these passes, whatever else it holds, and in every process. A new toolchain may
-/// hash differently: then goldens are stale without need, never fresh without right.
+/// The same in every plan that holds these passes, whatever else it holds, in every process and on every machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct Fingerprint {
     /// Kinds of passes, revisions of those in Rust, connections, sizes and formats.
@@ -64,49 +62,56 @@ fn of_pass(
     if descriptor.side_effect || descriptor.ports.iter().any(|port| matches!(port.role, Role::History(_))) {
         return None;
     }
-    let mut hashers: BTreeMap<&str, DefaultHasher> = BTreeMap::new();
-    let mut hash = |part: &'static str, value: &dyn Fn(&mut DefaultHasher)| value(hashers.entry(part).or_default());
-    hash("graph", &|to| {
-        (&descriptor.name, descriptor.revision).hash(to);
-        for binding in plan.bindings(pass) {
-            let slot = binding.map(|slot| &plan.slots[slot as usize]);
-            slot.map(|slot| slot.resource).hash(to);
-            slot.and_then(|slot| slot.initial()).map(|value| value.map(f32::to_bits)).hash(to);
-        }
-    });
-    hash("shaders", &|to| registry.pass(&descriptor.name).map_or(0, |pass| pass.fingerprint).hash(to));
-    hash("parameters", &|to| {
-        for setting in plan.params(pass) {
-            match setting {
-                ParamSetting::Value(ParamValue::File(path)) => std::fs::read(path).ok().hash(to),
-                ParamSetting::Value(value) => value.to_string().hash(to),
-                ParamSetting::Frame | ParamSetting::Time => frame.hash(to),
-            }
-        }
-    });
-    hash("scene", &|to| {
-        for name in &descriptor.scene {
-            (name, scene.map(|scene| scene.bytes(name))).hash(to);
-        }
-    });
-    for source in plan.sources(pass).iter() {
-        let from = match source.map(|source| &plan.ports[source as usize]) {
-            Some(port) => match port.pass {
-                Some(producer) => Some((upstream[producer as usize]?, port.port.port)),
-                None => None,
-            },
-            None => None,
-        };
-        hash("graph", &|to| from.map(|(print, port)| (print.graph, port)).hash(to));
-        hash("shaders", &|to| from.map(|(print, _)| print.shaders).hash(to));
-        hash("parameters", &|to| from.map(|(print, _)| print.parameters).hash(to));
-        hash("scene", &|to| from.map(|(print, _)| print.scene).hash(to));
+    let [mut graph, mut shaders, mut parameters, mut scene_data] = [Digest::default(); 4];
+    graph.text(&descriptor.name);
+    graph.number(u64::from(descriptor.revision));
+    for binding in plan.bindings(pass) {
+        let slot = binding.map(|slot| &plan.slots[slot as usize]);
+        graph.text(&slot.map_or(String::new(), |slot| resource(&slot.resource)));
+        let initial = slot.and_then(|slot| slot.initial());
+        initial.into_iter().flatten().for_each(|number| graph.number(u64::from(number.to_bits())));
     }
-    let part = |name: &str| hashers.get(name).map_or(0, DefaultHasher::finish);
+    shaders.number(registry.pass(&descriptor.name).map_or(0, |pass| pass.fingerprint));
+    for setting in plan.params(pass) {
+        match setting {
+            ParamSetting::Value(ParamValue::File(path)) => parameters.bytes(&std::fs::read(path).unwrap_or_default()),
+            ParamSetting::Value(value) => parameters.text(&value.to_string()),
+            ParamSetting::Frame | ParamSetting::Time => parameters.number(u64::from(frame)),
+        }
+    }
+    for name in &descriptor.scene {
+        scene_data.text(name);
+        scene_data.bytes(scene.map_or(&[], |scene| scene.bytes(name)));
+    }
+    for source in plan.sources(pass) {
+        let Some(port) = source.map(|source| &plan.ports[source as usize]) else {
+            graph.text("nothing is fed");
+            continue;
+        };
+        let Some(producer) = port.pass else {
+            graph.text("a constant is fed");
+            continue;
+        };
+        let print = upstream[producer as usize]?;
+        graph.number(u64::from(port.port.port));
+        graph.number(print.graph);
+        shaders.number(print.shaders);
+        parameters.number(print.parameters);
+        scene_data.number(print.scene);
+    }
     Some(Fingerprint {
-        graph: part("graph"),
-        shaders: part("shaders"),
-        parameters: part("parameters"),
-        scene: part("scene"),
+        graph: graph.finish(),
+        shaders: shaders.finish(),
+        parameters: parameters.finish(),
+        scene: scene_data.finish(),
     })
+}
+
+fn resource(resource: &Resource) -> String {
+    match resource {
+        Resource::Texture { dimension, format, width, height, depth_or_layers } => {
+            format!("{dimension} {format} {width}x{height}x{depth_or_layers}")
+        }
+        Resource::Buffer { bytes, stride } => format!("{bytes} bytes by {stride}"),
+    }
 }

@@ -51,7 +51,7 @@ fn run_pass(
     let ports: Vec<PortRef> = tapped.iter().map(|tapped| tapped.port).chain(fed).collect();
     let mut rendered = session.render_alone(&ready.loaded, &ready.registry, &ports, inputs, frame)?;
     rendered.ports.extend(inputs.iter().map(|(port, data)| (*port, data.clone())));
-    let judge = Judge { ready, options, adapter: AdapterClass::of(session.gpu()) };
+    let judge = Judge { ready, options, adapter: AdapterClass::of(session.gpu()), answers: &session.answers };
     for tapped in tapped {
         let mut port = judge.port(tapped, &rendered);
         // Nothing was rendered upstream, so nothing can be said of when the golden was made; and a property about a

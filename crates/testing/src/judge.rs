@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 
 use tyndall_graph::descriptor::ParamValue;
-use tyndall_graph::{ParamSetting, Plan};
+use tyndall_graph::{ParamSetting, Plan, PortRef};
 use tyndall_image::Image;
-use tyndall_plugin::ReferenceInput;
+use tyndall_plugin::{ReferenceInput, Registry};
+use tyndall_render::Loaded;
 
 use crate::adapter::AdapterClass;
+use crate::answers::Answers;
 use crate::file::{MOST_TEXELS, Property, Tapped};
 use crate::golden;
 use crate::metric::Judgement;
@@ -15,7 +17,7 @@ use crate::options::Options;
 use crate::outcome::{Check, GOLDEN, Outcome, PortOutcome, State};
 use crate::picture::Picture;
 use crate::property;
-use crate::run::{Ready, find};
+use crate::run::{Ready, find, inputs_of};
 use crate::session::{Rendered, moment};
 
 /// Holds ports against what a test says of them.
@@ -23,6 +25,7 @@ pub(crate) struct Judge<'a> {
     pub ready: &'a Ready,
     pub options: &'a Options,
     pub adapter: AdapterClass,
+    pub answers: &'a Answers,
 }
 
 impl Judge<'_> {
@@ -109,24 +112,40 @@ impl Judge<'_> {
         Check { what: property::name(property), judgement, also_on }
     }
 
-    /// What the pass's reference on the CPU makes of the inputs that the pass was given.
     fn computed(&self, tapped: &Tapped, actual: &Picture, rendered: &Rendered) -> Result<Picture, String> {
-        let plan = &self.ready.plan;
-        let position = plan.position(tapped.port.pass).ok_or("the pass does not run")?;
+        let Ready { plan, registry, loaded, .. } = self.ready;
+        Computing { plan, registry, loaded, answers: self.answers }.port(tapped.port, actual, rendered)
+    }
+}
+
+/// What is asked of references on the CPU.
+pub(crate) struct Computing<'a> {
+    pub plan: &'a Plan,
+    pub registry: &'a Registry,
+    pub loaded: &'a Loaded,
+    pub answers: &'a Answers,
+}
+
+impl Computing<'_> {
+    /// What the pass's reference on the CPU makes of the inputs that the pass was given.
+    pub fn port(&self, port: PortRef, actual: &Picture, rendered: &Rendered) -> Result<Picture, String> {
+        let plan = self.plan;
+        let position = plan.position(port.pass).ok_or("the pass does not run")?;
         let descriptor = plan.descriptor(position);
-        let registered = self.ready.registry.pass(&descriptor.name).and_then(|pass| pass.reference);
+        let registered = self.registry.pass(&descriptor.name).and_then(|pass| pass.reference);
         let reference = registered.ok_or_else(|| format!("`{}` has no reference on the CPU", descriptor.name))?;
-        let ports = || descriptor.ports.iter().enumerate();
         let mut inputs = BTreeMap::new();
-        for (index, from) in self.ready.inputs(tapped.port.pass) {
+        for (index, from) in inputs_of(plan, port.pass) {
             let name = descriptor.ports[index].name.as_str();
             let data =
                 rendered.ports.get(&from).ok_or_else(|| format!("what is fed into `{name}` was not rendered"))?;
             inputs.insert(name, data.as_ref());
         }
-        let resources = ports().filter_map(|(index, port)| {
-            Some((port.name.as_str(), plan.slots[plan.bindings(position)[index]? as usize].resource))
-        });
+        let resources = descriptor
+            .ports
+            .iter()
+            .zip(plan.bindings(position))
+            .filter_map(|(port, slot)| Some((port.name.as_str(), plan.slots[(*slot)? as usize].resource)));
         let frame = rendered.frame;
         let value = |setting: &ParamSetting| match setting {
             ParamSetting::Value(value) => value.clone(),
@@ -135,16 +154,21 @@ impl Judge<'_> {
         };
         let params = descriptor.params.iter().zip(plan.params(position));
         let (time, aspect) = moment(plan, frame);
-        let scene = self.ready.loaded.scene.as_ref().map(|scene| scene.twin(time, aspect));
+        let scene = self.loaded.scene.as_ref();
+        let reads_triangles = descriptor.scene.iter().any(|name| name == "triangles");
+        let surfaces = scene.filter(|_| reads_triangles).map(|scene| scene.surfaces(time));
+        let scene = scene.map(|scene| scene.twin(time, aspect));
         let input = ReferenceInput {
             inputs,
             resources: resources.collect(),
             params: params.map(|(param, setting)| (param.name.as_str(), value(setting))).collect(),
             scene: scene.as_ref(),
+            surfaces: surfaces.as_ref(),
         };
-        let mut outputs: BTreeMap<&str, Vec<f32>> = reference(&input)?;
-        let port = &graph_port(self.ready, tapped).name;
-        let data = outputs.remove(port.as_str()).ok_or_else(|| format!("the reference says nothing of `{port}`"))?;
+        let answer = self.answers.of(&descriptor.name, reference, &input);
+        let outputs = answer.as_ref().as_ref().map_err(String::clone)?;
+        let port = &self.loaded.graph.port(port).name;
+        let data = outputs.get(port.as_str()).ok_or_else(|| format!("the reference says nothing of `{port}`"))?.clone();
         if data.len() != actual.image.data.len() {
             return Err(format!(
                 "the reference gives {} numbers, and the port holds {}",
@@ -152,12 +176,8 @@ impl Judge<'_> {
                 actual.image.data.len()
             ));
         }
-        Ok(Picture::new(Image { data, ..actual.image }, actual.class))
+        Ok(actual.with(Image { data, ..actual.image }))
     }
-}
-
-fn graph_port<'a>(ready: &'a Ready, tapped: &Tapped) -> &'a tyndall_graph::descriptor::PortDescriptor {
-    ready.loaded.graph.port(tapped.port)
 }
 
 impl Check {

@@ -11,7 +11,8 @@
 //! | figures: [`Metric`], properties, relations | `metric`, `property`, `relation` |
 //! | whose fault it is: [`Outcome`] | `judge` |
 //! | goldens and what they were made from | [`golden`] |
-//! | pages that show it | [`report`] |
+//! | pages that show it | [`Report`] |
+//! | whether the tests themselves notice mistakes | [`mutants`] |
 //!
 //! It knows no command line; the verbs `tyndall test` and `tyndall diff` are one user of it, the tests of a plugin's
 //! crate another:
@@ -25,8 +26,10 @@
 //! ```
 
 mod adapter;
+mod answers;
 mod bless;
 pub mod codes;
+mod digest;
 mod discover;
 pub mod file;
 mod fingerprint;
@@ -35,16 +38,19 @@ pub mod golden;
 mod isolate;
 mod judge;
 mod metric;
+pub mod mutants;
 mod options;
 mod outcome;
 mod picture;
 mod property;
 mod relation;
-pub mod report;
+mod report;
 mod robust;
 mod run;
 mod session;
+mod substitute;
 pub mod summary;
+mod told;
 
 use std::path::Path;
 
@@ -57,7 +63,9 @@ pub use metric::{Judgement, Metric};
 pub use options::{Options, Robustness};
 pub use outcome::{Check, GOLDEN, Outcome, PassOutcome, PortOutcome, Problem, RelationOutcome, State};
 pub use picture::Picture;
+pub use report::Report;
 pub use session::{Plugins, Rendered, Saved, Session, Variation};
+pub use told::Told;
 
 /// Runs the test in a file with these plugins: for a `#[test]` of a plugin's crate.
 ///

@@ -1,6 +1,5 @@
 //! How far a picture may be from what is expected.
 
-use tyndall_graph::descriptor::Class;
 use tyndall_image::{Image, metrics};
 
 use crate::flip;
@@ -143,8 +142,11 @@ impl Metric {
                 Ok(Judgement { passed: part <= failing, figures, excess })
             }
             Metric::RelativeRmse { tolerance } => {
+                // Pictures of different shape have no planes to compare.
+                metrics::same_shape(&image, &wanted).map_err(said)?;
+                let like_actual = Picture { image: expected.image.clone(), ..*actual };
                 let mut worst = 0.0f64;
-                for (image, wanted) in planes(actual.class, &image).iter().zip(&planes(expected.class, &wanted)) {
+                for (image, wanted) in actual.planes().iter().zip(&like_actual.planes()) {
                     worst = worst.max(metrics::relative_rmse(image, wanted).map_err(said)?);
                 }
                 let figures = format!("relative RMSE {worst:.3e}, at most {tolerance:e}");
@@ -183,23 +185,6 @@ fn largest(image: &Image) -> f64 {
     finite.fold(0.0, |most, value| most.max(f64::from(value.abs())))
 }
 
-/// What is compared as a whole: every channel of every layer of a data port, everything of others.
-fn planes(class: Class, image: &Image) -> Vec<Image> {
-    if class != Class::Data || image.channels * image.layers == 1 {
-        return vec![image.clone()];
-    }
-    let texels = (image.width * image.height) as usize;
-    let plane = |layer: usize, channel: usize| {
-        let numbers = image.data[layer * texels * image.channels as usize..].iter();
-        let data = numbers.skip(channel).step_by(image.channels as usize).take(texels).copied().collect();
-        Image::new(image.width, image.height, 1, data)
-    };
-    (0..image.layers as usize)
-        .flat_map(|layer| (0..image.channels as usize).map(move |channel| (layer, channel)))
-        .map(|(layer, channel)| plane(layer, channel))
-        .collect()
-}
-
 impl std::fmt::Display for Metric {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match *self {
@@ -216,6 +201,8 @@ impl std::fmt::Display for Metric {
 
 #[cfg(test)]
 mod tests {
+    use tyndall_graph::descriptor::Class;
+
     use super::*;
 
     fn ramp(class: Class, change: impl Fn(usize, f32) -> f32) -> Picture {
@@ -267,6 +254,22 @@ mod tests {
         let metric = Metric::RelativeRmse { tolerance: 0.01 };
         assert!(!metric.judge(&picture(0.5), &picture(1.0)).passed);
         assert!(metric.judge(&picture(1.0), &picture(1.0)).passed);
+    }
+
+    /// The elements of a buffer hold numbers of all sizes, too.
+    #[test]
+    fn each_number_of_an_element_counts() {
+        let buffer = |small: f32| {
+            let data = (0..8).flat_map(|_| [small, 1000.0, 0.0]).collect();
+            let image = Image { width: 3, height: 8, layers: 1, channels: 1, data };
+            Picture { image, class: Class::Data, is_buffer: true }
+        };
+        let metric = Metric::RelativeRmse { tolerance: 0.01 };
+        assert!(!metric.judge(&buffer(1e-6), &buffer(2e-6)).passed);
+        assert!(metric.judge(&buffer(1e-6), &buffer(1e-6)).passed);
+        let mut shorter = buffer(1e-6);
+        shorter.image = Image { height: 4, data: shorter.image.data[..12].to_vec(), ..shorter.image };
+        assert!(!metric.judge(&shorter, &buffer(1e-6)).passed);
     }
 
     #[test]

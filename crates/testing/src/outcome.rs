@@ -33,6 +33,8 @@ pub struct Outcome {
     pub passes: Vec<PassOutcome>,
     /// Wall-clock time.
     pub took: Duration,
+    /// Name of its page in a report, without the suffix; empty where there is no report.
+    pub page: String,
 }
 
 /// A pass that ran.
@@ -182,12 +184,22 @@ impl Outcome {
         path.strip_suffix(crate::file::SUFFIX).unwrap_or(&path).to_owned()
     }
 
+    /// Lets go of the pictures of its ports.
+    pub fn drop_pictures(&mut self) {
+        self.ports.iter_mut().for_each(|port| (port.actual, port.expected) = (None, None));
+    }
+
     /// What a person reads about a failed test.
     pub fn text(&self) -> String {
+        self.text_with(&mut |mistakes| render_text(mistakes, false).trim_end().to_owned() + "\n")
+    }
+
+    /// The same, with the mistakes of files as `of_mistakes` tells them.
+    pub(crate) fn text_with(&self, of_mistakes: &mut dyn FnMut(&Diagnostics) -> String) -> String {
         let mut text = String::new();
         for problem in &self.problems {
             text += &match problem {
-                Problem::Mistakes(mistakes) => render_text(mistakes, false).trim_end().to_owned() + "\n",
+                Problem::Mistakes(mistakes) => of_mistakes(mistakes),
                 Problem::Machine(why) => format!("  cannot run: {why}\n"),
                 Problem::Orphan(path) => {
                     format!("  no tap claims the golden `{}`: delete it, or bless to drop it\n", path.display())

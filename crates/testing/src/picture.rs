@@ -11,12 +11,20 @@ pub struct Picture {
     pub image: Image,
     /// What the channels mean.
     pub class: Class,
+    /// It is a buffer: each number of an element means something else.
+    pub is_buffer: bool,
 }
 
 impl Picture {
     /// An image whose channels mean this.
     pub fn new(image: Image, class: Class) -> Self {
-        Self { image, class }
+        Self { image, class, is_buffer: false }
+    }
+
+    /// The same with other numbers.
+    #[must_use]
+    pub fn with(&self, image: Image) -> Self {
+        Self { image, ..*self }
     }
 
     /// The content of a port.
@@ -25,7 +33,7 @@ impl Picture {
             true => Image { width: data.channels, height: data.width, layers: 1, channels: 1, data: data.data.clone() },
             false => tyndall_render::image(data.clone()),
         };
-        Self { image, class }
+        Self { image, class, is_buffer: data.is_buffer }
     }
 
     /// The channels that mean something, but for alpha.
@@ -53,7 +61,28 @@ impl Picture {
         let data =
             texels.filter_map(|(layer, x, y)| self.image.pixel_in_layer(layer, x, y)).flatten().copied().collect();
         let [width, height, layers] = [width, height, layers].map(|extent| extent.div_ceil(step));
-        Self::new(Image { width, height, layers, channels, data }, self.class)
+        self.with(Image { width, height, layers, channels, data })
+    }
+
+    /// What is compared as a whole: of data ports each channel of each layer, and each number of a buffer's elements, for
+    /// they mean different things; everything of others.
+    pub(crate) fn planes(&self) -> Vec<Image> {
+        let image = self.compared();
+        let (width, texels) = (image.width as usize, (image.width * image.height) as usize);
+        let every = |first: usize, step: usize, count: usize| -> Vec<f32> {
+            image.data[first..].iter().step_by(step).take(count).copied().collect()
+        };
+        if self.is_buffer {
+            let elements = image.height as usize;
+            return (0..width).map(|at| Image::new(image.height, 1, 1, every(at, width, elements))).collect();
+        }
+        if self.class != Class::Data || image.channels * image.layers == 1 {
+            return vec![image];
+        }
+        let channels = image.channels as usize;
+        let places = (0..image.layers as usize).flat_map(|layer| (0..channels).map(move |channel| (layer, channel)));
+        let plane = |(layer, channel)| every(layer * texels * channels + channel, channels, texels);
+        places.map(|place| Image::new(image.width, image.height, 1, plane(place))).collect()
     }
 
     /// Alpha of a colour that has one.

@@ -7,8 +7,14 @@ use crate::metric::{Judgement, Metric};
 use crate::picture::Picture;
 use crate::property::{at_most, sum};
 
-/// Judges a change from the test's own run to the other runs.
-pub(crate) fn judge(change: Change, own: &Picture, others: &[Picture]) -> Judgement {
+/// Judges a change from the test's own run to the other runs. `computed` gives what the reference on the CPU says of one
+/// of these.
+pub(crate) fn judge(
+    change: Change,
+    own: &Picture,
+    others: &[Picture],
+    computed: &dyn Fn(usize) -> Result<Picture, String>,
+) -> Judgement {
     let each = |judge: &dyn Fn(&Picture) -> Judgement| worst(others.iter().map(judge));
     match change {
         Change::Same(by) => each(&|other| by.judge(other, own)),
@@ -26,6 +32,10 @@ pub(crate) fn judge(change: Change, own: &Picture, others: &[Picture]) -> Judgem
         },
         Change::NoMore(within) => each(&|other| at_most(&other.compared(), &own.compared(), within)),
         Change::NoLess(within) => each(&|other| at_most(&own.compared(), &other.compared(), within)),
+        Change::CpuReference(by) => worst(others.iter().enumerate().map(|(run, other)| match computed(run) {
+            Ok(expected) => by.judge(other, &expected),
+            Err(why) => fails(&why),
+        })),
         Change::Differs(least) => each(&|other| {
             // A cap on how loose a metric may be is no cap on how much must differ: what is measured is wanted here.
             let found = Metric::RelativeRmse { tolerance: least }.judge(other, own);
@@ -82,7 +92,11 @@ fn cut(picture: &Picture, x: i32, y: i32) -> Option<Picture> {
 mod tests {
     use tyndall_graph::descriptor::Class;
 
-    use super::*;
+    use super::{Change, Image, Judgement, Metric, Picture, scaled};
+
+    fn judge(change: Change, own: &Picture, others: &[Picture]) -> Judgement {
+        super::judge(change, own, others, &|_| Ok(own.clone()))
+    }
 
     const BY: Metric = Metric::RelativeRmse { tolerance: 1e-3 };
 
@@ -106,7 +120,8 @@ mod tests {
             (Change::SumOfRuns(BY), own.clone(), twice.clone()),
             (Change::NoMore(0.0), own.clone(), twice.clone()),
             (Change::NoLess(0.0), twice.clone(), zero),
-            (Change::Differs(0.1), twice, own.clone()),
+            (Change::Differs(0.1), twice.clone(), own.clone()),
+            (Change::CpuReference(BY), own.clone(), twice),
         ];
         for (change, right, wrong) in cases {
             assert!(judge(change, &own, &[right]).passed, "{change:?}");

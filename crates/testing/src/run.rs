@@ -11,12 +11,12 @@ use tyndall_plugin::Registry;
 use tyndall_render::{Error, Loaded, load};
 
 use crate::adapter::AdapterClass;
-use crate::file::{Tapped, TestFile, check, matches, read};
+use crate::file::{Change, Tapped, TestFile, check, matches, read};
 use crate::golden::{self, Records};
-use crate::judge::{Judge, attribute};
+use crate::judge::{Computing, Judge, attribute};
 use crate::metric::Judgement;
 use crate::options::Options;
-use crate::outcome::{Outcome, PassOutcome, Problem, RelationOutcome, State};
+use crate::outcome::{Outcome, PassOutcome, PortOutcome, Problem, RelationOutcome, State};
 use crate::picture::Picture;
 use crate::session::{Rendered, Session, Variation};
 use crate::{bless, isolate, relation, robust};
@@ -29,6 +29,13 @@ pub(crate) struct Ready {
     pub plan: Plan,
     pub tapped: Vec<Tapped>,
     pub records: Records,
+}
+
+/// Another run of a relation.
+struct Run {
+    loaded: Loaded,
+    plan: Plan,
+    rendered: Vec<Rendered>,
 }
 
 impl Session {
@@ -60,9 +67,11 @@ impl Session {
         } else {
             let rendered =
                 self.render(&ready.loaded, &ready.registry, &ready.ports(), &ready.file.frames, Variation::PLAIN)?;
-            let judge = Judge { ready: &ready, options, adapter: AdapterClass::of(self.gpu()) };
+            let adapter = AdapterClass::of(self.gpu());
+            let judge = Judge { ready: &ready, options, adapter, answers: &self.answers };
             outcome.ports = rendered.iter().flat_map(|frame| judge.frame(frame)).collect();
-            if options.size.is_none() {
+            let decided = options.until_failure && !outcome.ports.iter().all(PortOutcome::passed);
+            if options.size.is_none() && !decided {
                 outcome.relations = self.relations(&ready, &rendered, options)?;
             }
             attribute(&ready.plan, outcome);
@@ -77,7 +86,7 @@ impl Session {
             outcome.problems.extend(orphans.into_iter().map(Problem::Orphan));
         }
         if options.for_report {
-            let times = self.times(&ready.loaded, &ready.registry, ready.plan.clone())?;
+            let times = self.times(&ready.loaded, &ready.registry, &ready.plan)?;
             outcome.passes.iter_mut().zip(times).for_each(|(pass, time)| pass.microseconds = time);
         } else {
             for port in outcome.ports.iter_mut().filter(|port| port.state == State::Passed) {
@@ -121,8 +130,15 @@ impl Session {
         let graph = &ready.loaded.graph;
         let wanted = |name: &str| options.tap.as_ref().is_none_or(|pattern| matches(pattern, name));
         for relation in &ready.file.relations {
+            let failed = |relation: &RelationOutcome| !relation.judgement.passed;
+            if options.until_failure && outcomes.iter().any(failed) {
+                break;
+            }
             let expect: Vec<_> = relation.expect.iter().filter(|expectation| wanted(&expectation.port)).collect();
             let ports: Vec<PortRef> = expect.iter().filter_map(|expectation| find(graph, &expectation.port)).collect();
+            let asking = expect.iter().zip(&ports).filter(|(each, _)| matches!(each.change, Change::CpuReference(_)));
+            let inputs = asking.flat_map(|(_, port)| ready.inputs(port.pass)).map(|(_, port)| port);
+            let rendering: Vec<PortRef> = ports.iter().copied().chain(inputs).collect();
             let mut runs = Vec::new();
             for settings in &relation.runs {
                 let mut request = ready.file.request.clone();
@@ -130,14 +146,25 @@ impl Session {
                 let mut out = Diagnostics::default();
                 let loaded = load(&request, &ready.registry, &mut out).filter(|_| !out.has_errors());
                 let Some(loaded) = loaded else { return Err(out.into()) };
-                runs.push(self.render(&loaded, &ready.registry, &ports, &ready.file.frames, Variation::PLAIN)?);
+                let plan = Self::plan(&loaded.graph, Roots::Ports(rendering.clone()), Variation::PLAIN)?;
+                let frames = &ready.file.frames;
+                let rendered = self.render(&loaded, &ready.registry, &rendering, frames, Variation::PLAIN)?;
+                runs.push(Run { loaded, plan, rendered });
             }
             for (expectation, port) in expect.iter().zip(&ports) {
                 for (frame, own) in own.iter().enumerate() {
                     let others: Option<Vec<Picture>> =
-                        runs.iter().map(|run| run.get(frame)?.picture(&ready.plan, *port)).collect();
+                        runs.iter().map(|run| run.rendered.get(frame)?.picture(&ready.plan, *port)).collect();
                     let judgement = match (own.picture(&ready.plan, *port), others) {
-                        (Some(own), Some(others)) => relation::judge(expectation.change, &own, &others),
+                        (Some(own), Some(others)) => {
+                            let computed = |run: usize| {
+                                let Run { loaded, plan, rendered } = &runs[run];
+                                let registry = &ready.registry;
+                                let computing = Computing { plan, registry, loaded, answers: &self.answers };
+                                computing.port(*port, &others[run], &rendered[frame])
+                            };
+                            relation::judge(expectation.change, &own, &others, &computed)
+                        }
                         _ => Judgement::failed("it was not rendered in every run".to_owned()),
                     };
                     outcomes.push(RelationOutcome {
@@ -169,15 +196,20 @@ impl Ready {
 
     /// What feeds a pass of the graph: index of the input, and the port.
     pub fn inputs(&self, pass: u32) -> Vec<(usize, PortRef)> {
-        let Some(position) = self.plan.position(pass) else { return Vec::new() };
-        let sources = self.plan.sources(position).iter().enumerate();
-        sources.filter_map(|(index, source)| Some((index, self.plan.ports[(*source)? as usize].port))).collect()
+        inputs_of(&self.plan, pass)
     }
 
     /// The name of a golden.
     pub fn key(&self, port: &str, frame: u32) -> String {
         golden::key(port, frame, self.file.frames.len() > 1)
     }
+}
+
+/// What feeds a pass of a plan: index of the input, and the port.
+pub(crate) fn inputs_of(plan: &Plan, pass: u32) -> Vec<(usize, PortRef)> {
+    let Some(position) = plan.position(pass) else { return Vec::new() };
+    let sources = plan.sources(position).iter().enumerate();
+    sources.filter_map(|(index, source)| Some((index, plan.ports[(*source)? as usize].port))).collect()
 }
 
 impl Tapped {

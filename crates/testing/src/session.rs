@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use tyndall_document::Diagnostics;
 use tyndall_gpu::{Executor, FRAMES_PER_SECOND, FrameOptions, Gpu, PipelineCache, PortData, Timing};
 use tyndall_graph::descriptor::{Format, Role};
 use tyndall_graph::{Graph, Order, Plan, PlanOptions, PortRef, Resource, Roots};
@@ -12,8 +13,10 @@ use tyndall_plugin::{Plugin, Registry, SearchPath};
 use tyndall_render::{Error, Loaded, Running};
 use tyndall_scene::Encoded;
 
+use crate::answers::Answers;
 use crate::fingerprint::{Fingerprint, fingerprints};
 use crate::picture::Picture;
+use crate::substitute::Substitute;
 
 /// Makes the plugins of a registry.
 pub type Plugins = Vec<fn() -> Plugin>;
@@ -26,15 +29,18 @@ pub struct Session {
     plugins: Plugins,
     search: Vec<SearchPath>,
     gpu: Arc<Gpu>,
-    registries: HashMap<Vec<PathBuf>, Arc<Registry>>,
+    /// By the folders that were searched; where one cannot be had, every mistake.
+    registries: HashMap<Vec<PathBuf>, Result<Arc<Registry>, Diagnostics>>,
     cache: PipelineCache,
     results: HashMap<ResultKey, Arc<PortData>>,
     held: usize,
+    substitute: Option<Substitute>,
+    pub(crate) answers: Answers,
     /// What sharing has saved.
     pub saved: Saved,
 }
 
-type ResultKey = (Fingerprint, u32);
+pub(crate) type ResultKey = (Fingerprint, u32);
 
 /// Results that are held at most, numbers: 1 GiB. Beyond it all are let go, and sharing begins anew.
 const MOST_HELD: usize = 1 << 28;
@@ -102,6 +108,8 @@ impl Session {
             cache: PipelineCache::default(),
             results: HashMap::new(),
             held: 0,
+            substitute: None,
+            answers: Answers::default(),
             saved: Saved::default(),
         })
     }
@@ -124,13 +132,33 @@ impl Session {
             paths.insert(at, SearchPath { path: beside, required: false });
         }
         let key: Vec<_> = paths.iter().map(|search| search.path.clone()).collect();
-        if let Some(registry) = self.registries.get(&key) {
-            return Ok(registry.clone());
+        if !self.registries.contains_key(&key) {
+            let crates = self.plugins.iter().map(|plugin| plugin()).collect();
+            let registry = tyndall_render::registry(crates, &paths).map(Arc::new);
+            self.registries.insert(key.clone(), registry);
         }
-        let crates = self.plugins.iter().map(|plugin| plugin()).collect();
-        let registry = Arc::new(tyndall_render::registry(crates, &paths)?);
-        self.registries.insert(key, registry.clone());
-        Ok(registry)
+        let registry = self.registries[&key].clone()?;
+        Ok(match &mut self.substitute {
+            Some(substitute) => substitute.registry(&registry),
+            None => registry,
+        })
+    }
+
+    /// From now on a shader stands in for one of a pass's own; what is rendered with it is not kept for later.
+    pub(crate) fn substitute(&mut self, substitute: Substitute) {
+        self.restore();
+        self.substitute = Some(substitute);
+    }
+
+    /// Ends that. Tells whether any port came out with other bits than from the pass's own shader.
+    pub(crate) fn restore(&mut self) -> bool {
+        let Some(substitute) = self.substitute.take() else { return false };
+        self.cache.forget(substitute.shader.fingerprint);
+        substitute.changed
+    }
+
+    fn known(&self, key: &ResultKey) -> Option<&Arc<PortData>> {
+        self.results.get(key).or_else(|| self.substitute.as_ref()?.results.get(key))
     }
 
     /// Plans a graph so that these ports can be read.
@@ -213,17 +241,13 @@ impl Session {
         frame: u32,
     ) -> Result<Rendered, Error> {
         let prints = self.prints(loaded, registry, plan, frame);
-        let key = |plan: &Plan, prints: &[Option<Fingerprint>], port: u32| -> Option<ResultKey> {
-            let planned = &plan.ports[port as usize];
-            Some((prints[planned.pass? as usize]?, planned.port.port))
-        };
         let mut rendered = Rendered { frame, ports: BTreeMap::new(), made_from: BTreeMap::new() };
         let mut missing = Vec::new();
         for port in ports {
             let Some(planned) = plan.planned(*port) else { continue };
             let key = key(plan, &prints, planned);
             rendered.made_from.insert(*port, key.map(|key| key.0));
-            match key.and_then(|key| self.results.get(&key)) {
+            match key.and_then(|key| self.known(&key)) {
                 Some(data) => drop(rendered.ports.insert(*port, data.clone())),
                 None => missing.push(*port),
             }
@@ -231,19 +255,13 @@ impl Session {
         self.saved.passes += plan.passes.len();
         if missing.is_empty() {
             self.saved.spared += plan.passes.len();
+            self.compare(loaded, plan, &rendered);
             return Ok(rendered);
         }
         let rest = Self::plan(&loaded.graph, Roots::Ports(missing.clone()), Variation::PLAIN)?;
         let rest_prints = self.prints(loaded, registry, &rest, frame);
         let mut running = Running::new(&self.gpu, rest, loaded.scene.as_ref(), registry, &mut self.cache)?;
-        let executor = &mut running.executor;
-        for port in 0..executor.plan().ports.len() as u32 {
-            let known = key(executor.plan(), &rest_prints, port).and_then(|key| self.results.get(&key));
-            if let Some(data) = known.filter(|_| can_be_given(executor.plan().resource(port))) {
-                let texels = data.texels(executor.plan().resource(port));
-                executor.give(port, &texels)?;
-            }
-        }
+        self.give_known(&mut running.executor, &rest_prints)?;
         let report = running.frame(FrameOptions { frame, ..FrameOptions::default() })?;
         self.saved.spared += plan.passes.len() - report.passes_run;
         let executor = &running.executor;
@@ -255,10 +273,45 @@ impl Session {
             }
             rendered.ports.insert(port, data);
         }
+        self.compare(loaded, plan, &rendered);
         Ok(rendered)
     }
 
+    /// Holds what was rendered against what the pass's own shader made of it before.
+    fn compare(&mut self, loaded: &Loaded, plan: &Plan, rendered: &Rendered) {
+        let Some(original) = self.substitute.as_ref().and_then(|substitute| substitute.original.clone()) else {
+            return;
+        };
+        let prints = self.prints(loaded, &original, plan, rendered.frame);
+        let differs = |(port, data): (&PortRef, &Arc<PortData>)| {
+            let planned = &plan.ports[plan.planned(*port)? as usize];
+            let before = self.results.get(&(prints[planned.pass? as usize]?, planned.port.port))?;
+            let same = before.data.iter().zip(&data.data).all(|(a, b)| a.to_bits() == b.to_bits());
+            Some(!same)
+        };
+        let changed = rendered.ports.iter().any(|port| differs(port) == Some(true));
+        if let Some(substitute) = &mut self.substitute {
+            substitute.changed |= changed;
+        }
+    }
+
+    /// Gives every result that is known from before, where a device takes it.
+    fn give_known(&self, executor: &mut Executor, prints: &[Option<Fingerprint>]) -> Result<(), Error> {
+        for port in 0..executor.plan().ports.len() as u32 {
+            let known = key(executor.plan(), prints, port).and_then(|key| self.known(&key));
+            if let Some(data) = known.filter(|_| can_be_given(executor.plan().resource(port))) {
+                let texels = data.texels(executor.plan().resource(port));
+                executor.give(port, &texels)?;
+            }
+        }
+        Ok(())
+    }
+
     fn keep(&mut self, key: ResultKey, data: &Arc<PortData>) {
+        if let Some(substitute) = &mut self.substitute {
+            substitute.results.insert(key, data.clone());
+            return;
+        }
         if self.held + data.data.len() > MOST_HELD {
             self.results.clear();
             self.held = 0;
@@ -267,20 +320,24 @@ impl Session {
         self.results.insert(key, data.clone());
     }
 
-    /// GPU time of every pass of a plan by itself, in microseconds; `None` where it cannot be measured.
+    /// GPU time of every pass that these ports need by itself, in microseconds and in the order of `plan`; `None` where it
+    /// cannot be measured. Each pass runs once more, not all of them for each.
     ///
     /// # Errors
     /// What the machine cannot do.
-    pub fn times(&mut self, loaded: &Loaded, registry: &Registry, plan: Plan) -> Result<Vec<Option<f64>>, Error> {
-        let passes = plan.passes.len();
-        let mut running = Running::new(&self.gpu, plan, loaded.scene.as_ref(), registry, &mut self.cache)?;
-        running.frame(FrameOptions { everything: true, ..FrameOptions::default() })?;
-        (0..passes)
-            .map(|pass| {
-                let options = FrameOptions { everything: true, timing: Timing::Pass(pass), ..FrameOptions::default() };
-                Ok(running.frame(options)?.gpu_us)
-            })
-            .collect()
+    pub fn times(&mut self, loaded: &Loaded, registry: &Registry, plan: &Plan) -> Result<Vec<Option<f64>>, Error> {
+        let written = plan.ports.iter().filter(|port| port.pass.is_some()).map(|port| port.port);
+        let all = Self::plan(&loaded.graph, Roots::Ports(written.collect()), Variation::PLAIN)?;
+        let (passes, prints) = (0..all.passes.len(), self.prints(loaded, registry, &all, 0));
+        let mut running = Running::new(&self.gpu, all, loaded.scene.as_ref(), registry, &mut self.cache)?;
+        self.give_known(&mut running.executor, &prints)?;
+        running.frame(FrameOptions::default())?;
+        let time = |pass: usize| {
+            running.executor.forget(pass as u32);
+            let options = FrameOptions { timing: Timing::Pass(pass), ..FrameOptions::default() };
+            Ok(running.frame(options)?.gpu_us)
+        };
+        passes.map(time).collect()
     }
 
     /// Runs one pass of a frame with these inputs given, and reads its ports.
@@ -308,6 +365,12 @@ impl Session {
         let prints = vec![None; running.executor.plan().passes.len()];
         read_all(&running.executor, ports, frame, &prints)
     }
+}
+
+/// What a result is known by.
+fn key(plan: &Plan, prints: &[Option<Fingerprint>], port: u32) -> Option<ResultKey> {
+    let planned = &plan.ports[port as usize];
+    Some((prints[planned.pass? as usize]?, planned.port.port))
 }
 
 fn read_all(

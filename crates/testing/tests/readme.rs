@@ -12,6 +12,8 @@ fn the_file_in_the_readme_is_read() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("readme.test.ron");
     std::fs::write(&path, snippet).unwrap();
+    // What it names is there.
+    ["fog.graph.ron", "fog.scene.ron"].map(|name| std::fs::write(folder.path().join(name), "()").unwrap());
     let mut out = Diagnostics::default();
     let file = read(&path, &mut out);
     assert!(out.is_empty(), "{}", render_text(&out, false));

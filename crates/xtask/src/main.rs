@@ -6,6 +6,7 @@
 
 #![allow(clippy::print_stdout, reason = "what a command-line tool has to say goes to standard output")]
 
+mod browser;
 mod command;
 mod compiler;
 mod demo;
@@ -28,7 +29,7 @@ const USAGE: &str = "\
 Usage: cargo xtask <demo|test>
 
   demo   builds, makes sure that a GPU driver answers, renders the demo graphs into out/
-  test   builds, makes sure that a GPU driver answers, runs every check and every test
+  test   builds, makes sure that a GPU driver and a browser answer, runs every check and every test
 
 The environment variable TYNDALL_ASSETS names the folder of the real models that some tests read; without it they do
 not run, and `test` says how many.";

@@ -8,7 +8,7 @@ use crate::command::{Failure, announce, not_started, succeed, works};
 use crate::machine_paths::{Found, search};
 use crate::test_output::Tally;
 use crate::workspace::Workspace;
-use crate::{compiler, driver, licences, one_version};
+use crate::{browser, compiler, driver, licences, one_version};
 
 /// The environment variable that names the folder of real models.
 const ASSETS: &str = "TYNDALL_ASSETS";
@@ -17,7 +17,7 @@ const ASSETS: &str = "TYNDALL_ASSETS";
 /// steps from running, unless they cannot run without it.
 ///
 /// # Errors
-/// If a check or a test failed, or the machine lacks a GPU driver that cannot be installed.
+/// If a check or a test failed, or the machine lacks a GPU driver or a browser that cannot be installed.
 pub fn run(workspace: &Workspace) -> Result<(), Failure> {
     check_assets()?;
     let mut report = Report::default();
@@ -27,7 +27,8 @@ pub fn run(workspace: &Workspace) -> Result<(), Failure> {
     let set_up = report
         .timed("compiler", compiler::ensure)
         .and_then(|()| report.timed("build", build))
-        .and_then(|()| report.timed("driver", || driver::ensure(workspace)));
+        .and_then(|()| report.timed("driver", || driver::ensure(workspace)))
+        .and_then(|()| report.timed("browser", browser::ensure));
     let mut tally = Tally::default();
     if let Err(failure) = set_up {
         report.print(tally);

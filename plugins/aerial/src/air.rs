@@ -6,33 +6,25 @@ use glam::DVec3;
 use tyndall_shaders::phase::phase;
 use tyndall_shaders::scene::Phase;
 
-/// The parameters of `aerial.atmosphere`.
+/// What the passes of this plugin know of the air.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Atmosphere {
+pub struct Air {
     /// β_R, scattering coefficient of molecules, 1/m.
     pub rayleigh: DVec3,
     /// β_M, scattering coefficient of aerosols, 1/m.
     pub mie: DVec3,
-    /// Absorption coefficient of aerosols, 1/m.
-    pub absorption: DVec3,
+    /// β_ex, 1/m.
+    pub extinction: DVec3,
     /// Mean cosine of what aerosols scatter, of each channel, above 0 forward.
     pub g: DVec3,
-    /// Optical length of the molecules toward the zenith, m.
-    pub rayleigh_height: f64,
-    /// Optical length of the aerosols toward the zenith, m.
-    pub mie_height: f64,
-    /// Whether a ray to the sky ends at the dome; else it has no end.
-    pub dome: bool,
-    /// Whether irradiance is that above the atmosphere; else it is that on the ground.
-    pub from_space: bool,
+    /// Height of the sky dome at the zenith, m; without one a ray to the sky has no end.
+    pub dome: Option<f64>,
+    /// Optical depth of the whole atmosphere toward the zenith, where irradiance is that above it; without one irradiance
+    /// is that on the ground.
+    pub above: Option<DVec3>,
 }
 
-impl Atmosphere {
-    /// β_ex, 1/m.
-    pub fn extinction(&self) -> DVec3 {
-        self.rayleigh + self.mie + self.absorption
-    }
-
+impl Air {
     /// β_R·f_R + β_M·f_HG, 1/(m sr), at w = sin² of half the scattering angle. Hoffman and Preetham 2002, "Combined
     /// Scattering", with f_HG normalised: (1 − g²), not (1 − g)².
     pub fn angular_scattering(&self, w: f64) -> DVec3 {
@@ -42,21 +34,21 @@ impl Atmosphere {
 
     /// Length of a ray of this direction in the air, m; `way` to the nearest surface, or infinite.
     pub fn way(&self, direction: DVec3, way: f64) -> f64 {
-        if self.dome && way.is_infinite() { self.rayleigh_height * air_mass(elevation_degrees(direction)) } else { way }
+        match self.dome {
+            Some(dome) if way.is_infinite() => dome * air_mass(elevation_degrees(direction)),
+            _ => way,
+        }
     }
 
     /// F_ex over `s` metres.
     pub fn extinction_factor(&self, s: f64) -> DVec3 {
-        each(self.extinction(), |beta| if beta == 0.0 { 1.0 } else { (-beta * s).exp() })
+        each(self.extinction, |beta| if beta == 0.0 { 1.0 } else { (-beta * s).exp() })
     }
 
     /// What is left on the ground of the irradiance of a light that travels in this direction.
     pub fn sunlight(&self, direction: DVec3) -> DVec3 {
-        if !self.from_space {
-            return DVec3::ONE;
-        }
+        let Some(depth) = self.above else { return DVec3::ONE };
         let elevation = elevation_degrees(-direction);
-        let depth = self.rayleigh_height * self.rayleigh + self.mie_height * (self.mie + self.absorption);
         visible_disc(elevation) * each(-air_mass(elevation) * depth, f64::exp)
     }
 
@@ -65,8 +57,7 @@ impl Atmosphere {
     pub fn in_scattering(&self, sun: DVec3, e: DVec3, ray: DVec3, s: f64) -> DVec3 {
         let w = (0.5 * (sun + ray)).length_squared();
         let source = e * self.sunlight(sun) * self.angular_scattering(w);
-        let beta = self.extinction();
-        let length = each(beta, |beta| if beta == 0.0 { 0.0 } else { -(-beta * s).exp_m1() / beta });
+        let length = each(self.extinction, |beta| if beta == 0.0 { 0.0 } else { -(-beta * s).exp_m1() / beta });
         source * length
     }
 }
@@ -111,8 +102,9 @@ pub fn mie_coefficient(turbidity: f64, wavelength: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::atmosphere::Atmosphere;
 
-    fn air() -> Atmosphere {
+    fn atmosphere() -> Atmosphere {
         Atmosphere {
             rayleigh: DVec3::new(6.95e-6, 1.18e-5, 2.44e-5),
             mie: DVec3::splat(2e-5),
@@ -123,6 +115,10 @@ mod tests {
             dome: false,
             from_space: false,
         }
+    }
+
+    fn air() -> Air {
+        atmosphere().air()
     }
 
     const E: DVec3 = DVec3::new(20.0, 18.0, 15.0);
@@ -158,8 +154,8 @@ mod tests {
         assert_eq!(air().extinction_factor(0.0), DVec3::ONE);
         assert_eq!(air().extinction_factor(f64::INFINITY), DVec3::ZERO);
         let w = (0.5 * (sun + ray)).length_squared();
-        close(air().in_scattering(sun, E, ray, f64::INFINITY), E * air().angular_scattering(w) / air().extinction());
-        let none = Atmosphere { rayleigh: DVec3::ZERO, mie: DVec3::ZERO, absorption: DVec3::ZERO, ..air() };
+        close(air().in_scattering(sun, E, ray, f64::INFINITY), E * air().angular_scattering(w) / air().extinction);
+        let none = Air { rayleigh: DVec3::ZERO, mie: DVec3::ZERO, extinction: DVec3::ZERO, ..air() };
         assert_eq!(none.in_scattering(sun, E, ray, f64::INFINITY), DVec3::ZERO);
         assert_eq!(none.extinction_factor(f64::INFINITY), DVec3::ONE);
     }
@@ -183,7 +179,7 @@ mod tests {
             let w = (f64::from(i) + 0.5) / f64::from(steps);
             sum += air().angular_scattering(w) * (4.0 * PI / f64::from(steps));
         }
-        let lost = air().extinction() - air().absorption;
+        let lost = air().extinction - atmosphere().absorption;
         assert!(((sum - lost) / lost).abs().max_element() < 1e-8, "{sum} {lost}");
     }
 
@@ -199,7 +195,7 @@ mod tests {
 
     #[test]
     fn a_low_sun_is_weaker_and_redder_and_sets_without_a_jump() {
-        let air = Atmosphere { from_space: true, ..air() };
+        let air = Atmosphere { from_space: true, ..atmosphere() }.air();
         let at = |degrees: f64| air.sunlight(-DVec3::new(degrees.to_radians().cos(), degrees.to_radians().sin(), 0.0));
         let mut before = at(90.0);
         for tenth in (-20..900).rev() {

@@ -1,6 +1,8 @@
 //! The plugin `aerial`: what air does to sunlight and to the view.
 
 pub mod air;
+pub mod atmosphere;
+mod reference;
 
 use tyndall_plugin::{Plugin, folder};
 
@@ -10,4 +12,8 @@ pub fn plugin() -> Plugin {
         "plugin.ron", "air.wgsl", "atmosphere.wgsl", "compose.wgsl", "extinction.wgsl", "sun.wgsl",
     );
     Plugin::new("aerial", files)
+        .reference("aerial.atmosphere", reference::atmosphere)
+        .reference("aerial.compose", reference::compose)
+        .reference("aerial.extinction", reference::extinction)
+        .reference("aerial.sun", reference::sun)
 }

@@ -13,4 +13,8 @@ pub fn plugin() -> Plugin {
     Plugin::new("airlight", files)
         .reference("airlight.homogeneous", reference::homogeneous)
         .reference("airlight.height_fog", reference::height_fog)
+        .reference("airlight.h", reference::tables::h)
+        .reference("airlight.h_k", reference::tables::h_k)
+        .reference("airlight.table", reference::lookup::table)
+        .reference("airlight.legendre", reference::lookup::legendre)
 }

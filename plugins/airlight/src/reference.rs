@@ -1,5 +1,8 @@
 //! What the passes of this plugin compute, in double precision: what image tests hold them against.
 
+pub(crate) mod lookup;
+pub(crate) mod tables;
+
 use std::collections::BTreeMap;
 
 use tyndall_plugin::ReferenceInput;

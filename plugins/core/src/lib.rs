@@ -3,6 +3,7 @@
 mod gbuffer;
 mod image;
 mod reference;
+mod surfaces;
 
 use tyndall_plugin::{Plugin, folder};
 
@@ -18,6 +19,8 @@ pub fn plugin() -> Plugin {
         .reference("core.add", reference::add)
         .reference("core.compose", reference::compose)
         .reference("core.constant", reference::constant)
+        .reference("core.gbuffer", surfaces::gbuffer)
+        .reference("core.image", reference::image)
         .reference("core.resize", reference::resize)
         .reference("core.scale", reference::scale)
         .reference("core.tonemap", reference::tonemap)

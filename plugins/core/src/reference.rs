@@ -1,6 +1,7 @@
 //! What the passes of this plugin compute, in double precision: what image tests hold them against.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use tyndall_plugin::descriptor::ParamValue;
 use tyndall_plugin::{PortData, ReferenceInput};
@@ -59,6 +60,31 @@ pub(crate) fn scale(input: &ReferenceInput<'_>) -> Outputs {
 pub(crate) fn constant(input: &ReferenceInput<'_>) -> Outputs {
     let value = vector(input, "value")?;
     picture("color", input.size("color")?, |_, _| value)
+}
+
+/// The picture of the file, row by row from the top: grey in all three colours, alpha 1 where it has none.
+pub(crate) fn image(input: &ReferenceInput<'_>) -> Outputs {
+    let Some(ParamValue::File(path)) = input.params.get("file") else {
+        return Err("`file` is no path".to_owned());
+    };
+    let image = tyndall_image::read(Path::new(path)).map_err(|error| error.to_string())?;
+    if input.size("color")? != [image.width, image.height] {
+        return Err(format!("{path} is of another size"));
+    }
+    let channels = image.channels as usize;
+    let number = |texel: usize, channel: usize| image.data[texel * channels + channel];
+    let mut color = Vec::with_capacity(4 * image.pixel_count());
+    for texel in 0..image.pixel_count() {
+        let grey = channels == 1;
+        let rgb = (0..3).map(|channel| match channel {
+            _ if grey => number(texel, 0),
+            channel if channel < channels => number(texel, channel),
+            _ => 0.0,
+        });
+        color.extend(rgb);
+        color.push(if channels == 4 { number(texel, 3) } else { 1.0 });
+    }
+    Ok(BTreeMap::from([("color", color)]))
 }
 
 /// Airlight and surface; behind both, where a ray meets nothing, the background as far as the medium lets it through; and

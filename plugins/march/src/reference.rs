@@ -11,7 +11,7 @@ use tyndall_shaders::ray::{Ray, ray_of_pixel};
 use tyndall_shaders::scene::{Light, Scene};
 use tyndall_shaders::shadows::lit_intervals;
 
-/// Optical depth along the ray, of the channel of least extinction, at which the march ends: as in `airlight.wgsl`.
+/// Optical depth along the ray, of the channel of least extinction among those that scatter, at which the march ends: as in `airlight.wgsl`.
 const MARCH_DEPTH: f64 = 16.0;
 
 /// The same march with the same steps, from the definition of single scattering: what a light sends to the middle of
@@ -21,7 +21,10 @@ pub(crate) fn airlight(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static s
     let (size, steps) = (input.size("radiance")?, input.number("steps")?);
     let shadows = input.params.get("shadows") == Some(&ParamValue::Bool(true));
     let depth = input.inputs.get("depth");
-    let least = scene.medium.extinction.min_element().max(1e-30);
+    let (extinction, scattering) = (scene.medium.extinction.to_array(), scene.medium.scattering().to_array());
+    let scatters = extinction.into_iter().zip(scattering).filter(|(_, scattering)| *scattering > 0.0);
+    let least = scatters.map(|(extinction, _)| extinction).fold(f64::INFINITY, f64::min);
+    let least = if least.is_finite() { least } else { 1e-30 };
     let mut radiance = Vec::with_capacity((4 * size[0] * size[1]) as usize);
     for y in 0..size[1] {
         for x in 0..size[0] {

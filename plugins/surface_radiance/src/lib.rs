@@ -10,5 +10,13 @@ pub fn plugin() -> Plugin {
         "surface_radiance": "plugin.ron", "direct.wgsl", "j.wgsl", "j_k.wgsl", "j_texel.wgsl", "legendre.wgsl", "lobes.wgsl", "lookup.wgsl",
         "phong.wgsl", "table.wgsl", "zonal.wgsl"
     );
-    Plugin::new("surface_radiance", files).reference("surface_radiance.phong", reference::phong)
+    Plugin::new("surface_radiance", files)
+        .reference("surface_radiance.direct", reference::direct)
+        .reference("surface_radiance.zonal", reference::around::zonal)
+        .reference("surface_radiance.lobes", reference::lobes::lobes)
+        .reference("surface_radiance.phong", reference::phong::phong)
+        .reference("surface_radiance.j", reference::tables::j)
+        .reference("surface_radiance.table", reference::lookup::table)
+        .reference("surface_radiance.j_k", reference::tables::j_k)
+        .reference("surface_radiance.legendre", reference::lookup::legendre)
 }

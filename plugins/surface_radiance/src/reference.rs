@@ -1,61 +1,97 @@
 //! What the passes of this plugin compute, in double precision: what image tests hold them against.
+//!
+//! Light that depends on tables is computed from the tables that the pass was given, so that the errors of a table are not
+//! those of the pass that reads it.
+
+pub(crate) mod around;
+pub(crate) mod lobes;
+pub(crate) mod lookup;
+pub(crate) mod phong;
+pub(crate) mod tables;
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use tyndall_plugin::descriptor::ParamValue;
+use glam::DVec3;
 use tyndall_plugin::{PortData, ReferenceInput};
 use tyndall_shaders::lights::incident;
-use tyndall_shaders::medium::transmittance;
-use tyndall_shaders::ray::ray_of_pixel;
-use tyndall_shaders::scene::Scene;
+use tyndall_shaders::medium::{effective_way, transmittance};
+use tyndall_shaders::ray::{Ray, ray_of_pixel};
+use tyndall_shaders::scene::{HeightFog, Light, Scene};
 
-/// Direct light of every light: the formula of the contract, from the surface that was fed.
-pub(crate) fn phong(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String> {
+/// The numbers of each output.
+pub(crate) type Outputs = Result<BTreeMap<&'static str, Vec<f32>>, String>;
+
+/// Direct light of every light, in height fog too: the formula of the contract, from the surface that was fed.
+pub(crate) fn direct(input: &ReferenceInput<'_>) -> Outputs {
+    let fog = input.scene()?.height_fog;
+    of_surfaces(input, &fog, |scene, light, surface| straight(scene, &fog, light, surface))
+}
+
+/// What a ray meets.
+#[derive(Clone, Copy)]
+pub(crate) struct Surface {
+    /// The light that is asked for reaches it.
+    pub is_lit: bool,
+    pub position: DVec3,
+    /// Turned to the eye.
+    pub normal: DVec3,
+    pub mirrored: DVec3,
+    /// ρ in the first three channels.
+    pub diffuse: [f64; 4],
+    /// k_s, and n in the fourth channel.
+    pub phong: [f64; 4],
+}
+
+/// What surfaces send to the eye: `light` gives that of one light before the way to the eye.
+pub(crate) fn of_surfaces(
+    input: &ReferenceInput<'_>,
+    fog: &HeightFog,
+    light: impl Fn(&Scene, &Light, &Surface) -> DVec3,
+) -> Outputs {
     let scene = input.scene()?;
-    let is_on = |param: &str| input.params.get(param) == Some(&ParamValue::Bool(true));
-    if is_on("scattered") {
-        return Err("it knows direct light only: set `scattered` to false".to_owned());
-    }
     let (depth, normal, material) = (input.input("depth")?, input.input("normal")?, input.input("material")?);
     let size = input.size("radiance")?;
     let mut radiance = Vec::with_capacity((4 * size[0] * size[1]) as usize);
     for y in 0..size[1] {
         for x in 0..size[0] {
-            let way = texel(depth, 0, x, y)[0];
-            let mut sum = [0.0; 3];
-            if is_on("direct") && way.is_finite() {
-                let surface = Surface {
-                    way,
-                    lit: input.input("lit").ok().map(|lit| texel(lit, 0, x, y)),
-                    normal: texel(normal, 0, x, y),
-                    diffuse: texel(material, 0, x, y),
-                    phong: texel(material, 1, x, y),
-                };
-                sum = reflected(scene, [x, y], size, &surface);
+            let (ray, way) = (ray_of_pixel(&scene.camera, [x, y], size), texel(depth, 0, x, y)[0]);
+            let mut sum = DVec3::ZERO;
+            if way.is_finite() {
+                let [diffuse, phong] = [0, 1].map(|layer| texel(material, layer, x, y));
+                let surface = surface(&ray, way, texel(normal, 0, x, y), diffuse, phong);
+                let to_eye = transmittance(&scene.medium, effective_way(fog, ray.origin.y, ray.direction.y, way));
+                let lit = input.inputs.get("lit").map(|lit| texel(lit, 0, x, y));
+                let lights = scene.lights.iter().enumerate().map(|(index, each)| {
+                    light(scene, each, &Surface { is_lit: lit.is_none_or(|bits| has_light(bits, index)), ..surface })
+                });
+                sum = lights.sum::<DVec3>() * to_eye;
             }
-            radiance.extend(sum.map(|channel| channel as f32));
+            radiance.extend(sum.to_array().map(|channel| channel as f32));
             radiance.push(1.0);
         }
     }
     Ok(BTreeMap::from([("radiance", radiance)]))
 }
 
-/// What a ray meets.
-struct Surface {
-    /// Metres along the ray.
-    way: f64,
-    /// The lights that reach it, as in `lights.wgsl`; `None`: all.
-    lit: Option<[f64; 4]>,
-    normal: [f64; 4],
-    /// ρ in the first three channels.
-    diffuse: [f64; 4],
-    /// k_s, and n in the fourth channel.
-    phong: [f64; 4],
+/// Bits of a channel, as in `lights.wgsl`.
+const BITS_OF_CHANNEL: usize = 24;
+
+/// Whether a light is among those of a texel; beyond those that there is room for all are.
+fn has_light(bits: [f64; 4], light: usize) -> bool {
+    let channel = bits.get(light / BITS_OF_CHANNEL);
+    channel.is_none_or(|channel| *channel as u32 >> (light % BITS_OF_CHANNEL) & 1 == 1)
+}
+
+fn surface(ray: &Ray, way: f64, normal: [f64; 4], diffuse: [f64; 4], phong: [f64; 4]) -> Surface {
+    let outward = DVec3::new(normal[0], normal[1], normal[2]);
+    let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
+    let mirrored = ray.direction - 2.0 * ray.direction.dot(normal) * normal;
+    Surface { is_lit: true, position: ray.at(way), normal, mirrored, diffuse, phong }
 }
 
 /// A texel of a layer; channels that are not there are 0.
-fn texel(data: &PortData, layer: u32, x: u32, y: u32) -> [f64; 4] {
+pub(crate) fn texel(data: &PortData, layer: u32, x: u32, y: u32) -> [f64; 4] {
     let at = (((layer * data.height + y) * data.width + x) * data.channels) as usize;
     std::array::from_fn(
         |channel| {
@@ -64,32 +100,20 @@ fn texel(data: &PortData, layer: u32, x: u32, y: u32) -> [f64; 4] {
     )
 }
 
-fn reflected(scene: &Scene, pixel: [u32; 2], size: [u32; 2], surface: &Surface) -> [f64; 3] {
-    let ray = ray_of_pixel(&scene.camera, pixel, size);
-    let mut normal = ray.direction;
-    (normal.x, normal.y, normal.z) = (surface.normal[0], surface.normal[1], surface.normal[2]);
-    if normal.dot(ray.direction) > 0.0 {
-        normal = -normal;
+/// The first three channels.
+pub(crate) fn rgb(texel: &[f64; 4]) -> DVec3 {
+    DVec3::new(texel[0], texel[1], texel[2])
+}
+
+/// What comes straight from a light.
+pub(crate) fn straight(scene: &Scene, fog: &HeightFog, light: &Light, surface: &Surface) -> DVec3 {
+    let arriving = incident(light, surface.position);
+    let (cosine, cos_alpha) = (surface.normal.dot(arriving.to_light), surface.mirrored.dot(arriving.to_light));
+    if cosine <= 0.0 || !surface.is_lit {
+        return DVec3::ZERO;
     }
-    let mirrored = ray.direction - 2.0 * ray.direction.dot(normal) * normal;
-    let to_eye = transmittance(&scene.medium, surface.way).to_array();
-    let mut sum = [0.0; 3];
-    for (index, light) in scene.lights.iter().enumerate() {
-        let bits = surface.lit.and_then(|lit| lit.get(index / 24).copied());
-        if bits.is_some_and(|bits| bits as u32 >> (index % 24) & 1 == 0) {
-            continue;
-        }
-        let arriving = incident(light, ray.at(surface.way));
-        let (cosine, cos_alpha) = (normal.dot(arriving.to_light), mirrored.dot(arriving.to_light));
-        if cosine <= 0.0 {
-            continue;
-        }
-        let lobe = if cos_alpha > 0.0 { cos_alpha.powf(surface.phong[3]) } else { 0.0 };
-        let irradiance = (arriving.irradiance * transmittance(&scene.medium, arriving.way)).to_array();
-        for channel in 0..3 {
-            let brdf = surface.diffuse[channel] / PI * cosine + surface.phong[channel] * lobe;
-            sum[channel] += brdf * irradiance[channel] * to_eye[channel];
-        }
-    }
-    sum
+    let lobe = if cos_alpha > 0.0 { cos_alpha.powf(surface.phong[3]) } else { 0.0 };
+    let way = effective_way(fog, surface.position.y, arriving.to_light.y, arriving.way);
+    let brdf = rgb(&surface.diffuse) / PI * cosine + rgb(&surface.phong) * lobe;
+    brdf * arriving.irradiance * transmittance(&scene.medium, way)
 }

@@ -6,6 +6,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use tyndall_compare::{CompareFile, Entry, compare, prepare, read, steps};
 use tyndall_document::{Diagnostics, Source, render_text};
 use tyndall_gpu::Gpu;
+use tyndall_plugin::Registry;
 
 use crate::App;
 use crate::cli::{Arguments, Compare};
@@ -17,8 +18,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Compare) -> Result<()
     let source = Source::read(&verb.file)?;
     let file = read(&source, &mut out).ok_or_else(|| out.clone())?;
     let file = chosen(file, verb)?;
-    let folders: Vec<&Path> = file.methods.iter().map(|method| method.path.as_path()).chain([&*verb.file]).collect();
-    let registry = plugins::registry(app, arguments, &folders)?;
+    let registry = registry(app, arguments, &verb.file, &file)?;
     let scenes = prepare(&file, &registry, &mut out);
     if out.has_errors() {
         return Err(out.into());
@@ -52,6 +52,12 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Compare) -> Result<()
     terminal::line("");
     written.iter().for_each(|path| terminal::line(&format!("wrote {}", path.display())));
     Ok(())
+}
+
+/// The passes that a comparison's graphs can use: plugins beside it and beside them, too.
+pub(crate) fn registry(app: &App, arguments: &Arguments, path: &Path, file: &CompareFile) -> Result<Registry, Failure> {
+    let paths: Vec<&Path> = file.methods.iter().map(|method| method.path.as_path()).chain([path]).collect();
+    plugins::registry(app, arguments, &paths)
 }
 
 /// The file with only what the command line asks for.

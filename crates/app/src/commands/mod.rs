@@ -6,6 +6,7 @@ mod check;
 mod compare;
 mod diff;
 mod explain;
+mod mutants;
 mod new;
 mod passes;
 mod probe;
@@ -31,6 +32,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments) -> Result<(), Failure> {
         Verb::Compare(verb) => compare::run(app, arguments, verb),
         Verb::Probe(verb) => probe::run(app, arguments, verb),
         Verb::Test(verb) => test::run(app, arguments, verb),
+        Verb::Mutants(verb) => mutants::run(app, arguments, verb),
         Verb::Diff(verb) => diff::run(verb),
         Verb::Adapters => adapters::run(),
         Verb::New { what } => new::run(what),

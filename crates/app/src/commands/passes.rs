@@ -5,7 +5,7 @@ use tyndall_graph::descriptor::{
     Axis, Class, Dimension, Disabled, Extent, ParamDescriptor, ParamValue, PortDescriptor, PortKind, Preset, Role,
     SizeRule,
 };
-use tyndall_plugin::{Origin, RegistryPass};
+use tyndall_plugin::{Limit, Origin, RegistryPass};
 
 use crate::App;
 use crate::cli::{Arguments, Passes};
@@ -77,8 +77,9 @@ fn document(pass: &RegistryPass) -> String {
     }
     section(&mut text, "Inputs", descriptor.ports.iter().filter(|port| port.role.is_input()).map(port_text));
     section(&mut text, "Outputs", descriptor.ports.iter().filter(|port| port.role.is_output()).map(port_text));
-    section(&mut text, "Parameters", descriptor.params.iter().map(param_text));
+    section(&mut text, "Parameters", descriptor.params.iter().map(|param| param_text(pass, param)));
     section(&mut text, "Presets", descriptor.presets.iter().map(preset_text));
+    section(&mut text, "Limits", pass.limits.iter().map(limit_text));
     if !descriptor.scene.is_empty() {
         text += &format!("\nReads of the scene: {}\n", descriptor.scene.join(", "));
     }
@@ -101,14 +102,24 @@ fn port_text(port: &PortDescriptor) -> String {
     format!("  {}: {}\n{}", port.name, facts.join(", "), wrapped(&port.about, "      "))
 }
 
-fn param_text(param: &ParamDescriptor) -> String {
+fn param_text(pass: &RegistryPass, param: &ParamDescriptor) -> String {
     let mut facts = vec![type_name(&param.default).to_owned()];
     facts.extend((!param.unit.is_empty()).then(|| param.unit.clone()));
     facts.push(format!("default {}", param.default));
     facts.extend(param.range.map(|(low, high)| format!("{low} to {high}")));
     facts.extend((!param.choices.is_empty()).then(|| format!("one of {}", param.choices.join(", "))));
     facts.extend(param.fixed.then(|| "part of the pipeline".to_owned()));
+    facts.extend(need(pass, param).map(|port| format!("needs the input {port}")));
     format!("  {}: {}\n{}", param.name, facts.join(", "), wrapped(&param.about, "      "))
+}
+
+/// The input without which a switch does nothing.
+fn need<'a>(pass: &'a RegistryPass, param: &ParamDescriptor) -> Option<&'a str> {
+    pass.needs.iter().find(|need| need.param == param.name).map(|need| need.port.as_str())
+}
+
+fn limit_text(limit: &Limit) -> String {
+    wrapped(&format!("{}: {}", limit.feature.name(), limit.text), "  ")
 }
 
 fn preset_text(preset: &Preset) -> String {
@@ -226,8 +237,9 @@ fn as_json(pass: &RegistryPass) -> Value {
         "source": descriptor.source,
         "inputs": descriptor.ports.iter().filter(|port| port.role.is_input()).map(port_json).collect::<Vec<_>>(),
         "outputs": descriptor.ports.iter().filter(|port| port.role.is_output()).map(port_json).collect::<Vec<_>>(),
-        "params": descriptor.params.iter().map(param_json).collect::<Vec<_>>(),
+        "params": descriptor.params.iter().map(|param| param_json(pass, param)).collect::<Vec<_>>(),
         "presets": descriptor.presets.iter().map(preset_json).collect::<Vec<_>>(),
+        "limits": pass.limits.iter().map(limit_json).collect::<Vec<_>>(),
         "scene": descriptor.scene,
     })
 }
@@ -260,6 +272,10 @@ fn preset_json(preset: &Preset) -> Value {
     json!({ "name": preset.name, "about": preset.about, "values": values })
 }
 
+fn limit_json(limit: &Limit) -> Value {
+    json!({ "scene": limit.feature.name(), "text": limit.text })
+}
+
 fn value_json(value: &ParamValue) -> Value {
     match value {
         ParamValue::Bool(on) => json!(on),
@@ -270,7 +286,7 @@ fn value_json(value: &ParamValue) -> Value {
     }
 }
 
-fn param_json(param: &ParamDescriptor) -> Value {
+fn param_json(pass: &RegistryPass, param: &ParamDescriptor) -> Value {
     json!({
         "name": param.name,
         "about": param.about,
@@ -280,5 +296,6 @@ fn param_json(param: &ParamDescriptor) -> Value {
         "range": param.range.map(|(low, high)| [low, high]),
         "choices": param.choices,
         "fixed": param.fixed,
+        "needs": need(pass, param),
     })
 }

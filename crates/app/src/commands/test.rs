@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::Instant;
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use tyndall_document::render_text;
-use tyndall_testing::{Options, Outcome, Problem, Robustness, Saved, Session, discover, report, summary};
+use tyndall_testing::{Options, Outcome, Problem, Report, Robustness, Saved, Session, Told, discover, summary};
 
 use crate::App;
 use crate::cli::{Arguments, Test};
@@ -25,23 +25,37 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Test) -> Result<(), F
         terminal::line("0 passed, 0 failed");
         return Err(Failure::Usage(format!("there is no test{what}: a test is a file NAME.test.ron")));
     }
-    let run = run_all(app, arguments, verb, &chosen, &options);
-    let mut outcomes = run.outcomes;
+    // What cannot be written is said before anything is rendered.
+    let report = verb.report.as_deref().map(Report::begin).transpose()?;
+    let mut run = run_all(app, arguments, verb, &chosen, (&options, report.as_ref()))?;
     if filter.is_empty() && verb.tap.is_none() {
-        outcomes.extend(found.orphans.into_iter().map(orphaned));
+        for orphan in found.orphans {
+            run.keep(orphaned(orphan), report.as_ref())?;
+        }
     }
+    if let Some(tap) = verb.tap.as_ref().filter(|_| run.outcomes.is_empty()) {
+        terminal::line("0 passed, 0 failed");
+        return Err(Failure::Usage(format!("no test looks at a port that matches `{tap}`: ports are `pass.port`")));
+    }
+    run.outcomes.sort_by(|a, b| a.path.cmp(&b.path));
+    let written = write(verb, &run, report);
+    let concluded = conclude(&run.outcomes, run.saved);
+    written.and(concluded)
+}
+
+/// The figures and the report, where they are wanted.
+fn write(verb: &Test, run: &Run, report: Option<Report>) -> Result<(), Failure> {
     if let Some(path) = &verb.json {
-        let figures = summary::json(&run.adapter, &outcomes, run.saved);
+        let figures = summary::json(&run.adapter, &run.outcomes, run.saved);
         tyndall_image::write_bytes(path, format!("{figures:#}\n").as_bytes())?;
-        tyndall_image::write_bytes(&path.with_extension("xml"), summary::junit(&outcomes).as_bytes())?;
+        tyndall_image::write_bytes(&path.with_extension("xml"), summary::junit(&run.outcomes).as_bytes())?;
         terminal::line(&format!("wrote {} and {}", path.display(), path.with_extension("xml").display()));
     }
-    if let Some(folder) = &verb.report {
-        let start = Instant::now();
-        let page = report::write(folder, &run.adapter, &outcomes).map_err(Failure::Usage)?;
-        terminal::line(&format!("wrote {} in {:.1} s", page.display(), start.elapsed().as_secs_f64()));
+    if let Some(report) = report {
+        let page = report.finish(&run.adapter, &run.outcomes)?;
+        terminal::line(&format!("wrote {} in {:.1} s", page.display(), run.reporting.as_secs_f64()));
     }
-    conclude(&outcomes, run.saved)
+    Ok(())
 }
 
 fn options(verb: &Test) -> Result<Options, Failure> {
@@ -58,6 +72,7 @@ fn options(verb: &Test) -> Result<Options, Failure> {
         tap: verb.tap.clone(),
         isolate: verb.isolate,
         without_goldens: verb.no_goldens,
+        until_failure: false,
         size: verb.size,
         robustness,
         for_report: verb.report.is_some(),
@@ -65,17 +80,44 @@ fn options(verb: &Test) -> Result<Options, Failure> {
 }
 
 /// What all tests found.
+#[derive(Default)]
 struct Run {
     outcomes: Vec<Outcome>,
     adapter: String,
     saved: Saved,
+    told: Told,
+    /// Time spent on pages.
+    reporting: Duration,
+}
+
+impl Run {
+    /// Tells what a test found, writes its page, and keeps all but the pictures. A test that looked at nothing, as none of
+    /// its ports was asked for, has neither passed nor failed.
+    fn keep(&mut self, mut outcome: Outcome, report: Option<&Report>) -> Result<(), tyndall_image::Error> {
+        if outcome.ports.is_empty() && outcome.relations.is_empty() && outcome.problems.is_empty() {
+            return Ok(());
+        }
+        told(&outcome, &mut self.told);
+        let start = Instant::now();
+        let written = report.map_or(Ok(()), |report| report.add(&mut outcome));
+        self.reporting += start.elapsed();
+        outcome.drop_pictures();
+        self.outcomes.push(outcome);
+        written
+    }
 }
 
 /// Runs tests in so many threads as asked for; those of one graph in one thread, since they share results.
-fn run_all(app: &App, arguments: &Arguments, verb: &Test, tests: &[PathBuf], options: &Options) -> Run {
+fn run_all(
+    app: &App,
+    arguments: &Arguments,
+    verb: &Test,
+    tests: &[PathBuf],
+    (options, report): (&Options, Option<&Report>),
+) -> Result<Run, tyndall_image::Error> {
     let groups = groups(tests);
     let next = AtomicUsize::new(0);
-    let done = Mutex::new(Run { outcomes: Vec::new(), adapter: String::new(), saved: Saved::default() });
+    let done = Mutex::new((Run::default(), Ok(())));
     let search = plugins::search_paths(arguments, &[]);
     let work = || {
         let mut session = None;
@@ -92,13 +134,17 @@ fn run_all(app: &App, arguments: &Arguments, verb: &Test, tests: &[PathBuf], opt
                         ..Outcome::default()
                     },
                 };
-                let mut done = done.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-                told(&outcome);
-                done.outcomes.push(outcome);
+                let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
+                if let Err(error) = done.0.keep(outcome, report) {
+                    // A report that cannot be written is given up, and so is the run that is for it.
+                    next.store(groups.len(), Ordering::Relaxed);
+                    done.1 = Err(error);
+                    return;
+                }
             }
         }
         if let Some(Ok(session)) = session {
-            let mut done = done.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+            let done = &mut done.lock().unwrap_or_else(PoisonError::into_inner).0;
             done.adapter.clone_from(&session.gpu().info.name);
             done.saved.passes += session.saved.passes;
             done.saved.spared += session.saved.spared;
@@ -111,9 +157,8 @@ fn run_all(app: &App, arguments: &Arguments, verb: &Test, tests: &[PathBuf], opt
         }
         work();
     });
-    let mut run = done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    run.outcomes.sort_by(|a, b| a.path.cmp(&b.path));
-    run
+    let (run, written) = done.into_inner().unwrap_or_else(PoisonError::into_inner);
+    written.map(|()| run)
 }
 
 /// Tests by the graph that they name, as far as a glance at the file tells.
@@ -132,12 +177,10 @@ fn groups(tests: &[PathBuf]) -> Vec<Vec<&Path>> {
 
 /// A folder of goldens that belongs to no test.
 fn orphaned(folder: PathBuf) -> Outcome {
-    let outcome = Outcome { path: folder.clone(), problems: vec![Problem::Orphan(folder)], ..Outcome::default() };
-    told(&outcome);
-    outcome
+    Outcome { path: folder.clone(), problems: vec![Problem::Orphan(folder)], ..Outcome::default() }
 }
 
-fn told(outcome: &Outcome) {
+fn told(outcome: &Outcome, earlier: &mut Told) {
     let took = outcome.took.as_secs_f64() * 1e3;
     let word = if outcome.passed() { "ok    " } else { "FAILED" };
     terminal::line(&format!("{word} {}  ({took:.0} ms)", outcome.name()));
@@ -151,7 +194,7 @@ fn told(outcome: &Outcome) {
     if !outcome.warnings.is_empty() {
         terminal::error(&render_text(&outcome.warnings, terminal::color()));
     }
-    terminal::text(&outcome.text());
+    terminal::text(&earlier.text(outcome));
 }
 
 /// The slowest tests, what sharing saved, and the last line.

@@ -2,7 +2,7 @@
 //! and at its limits.
 
 use glam::DVec3;
-use tyndall_aerial::air::Atmosphere;
+use tyndall_aerial::atmosphere::Atmosphere;
 use tyndall_image::{Image, metrics, read};
 use tyndall_shaders::ray::ray_of_pixel;
 use tyndall_shaders::scene::Camera;
@@ -150,7 +150,8 @@ fn every_pixel_agrees_with_double_precision() {
         mie_height: 11_000.0,
         dome: true,
         from_space: true,
-    };
+    }
+    .air();
     let forward = DVec3::new(0.0, 10.0, -100.0).normalize();
     let half = 30f64.to_radians().tan();
     let up = DVec3::X.cross(forward) * half;

@@ -29,6 +29,26 @@ fn sound_graphs_pass_in_both_forms() {
 }
 
 #[test]
+fn scenes_and_comparisons_are_checked_for_what_they_are() {
+    let desk = Desk::new();
+    desk.put("s.scene.ron", "(camera: (position: (0, 1, 5), look_at: (0, 1, 0)), lights: [])");
+    desk.put(
+        "c.compare.ron",
+        r#"(version: 1, output: "airlight", size: (8, 6), scenes: { "s": (scene: "s.scene.ron") },
+        methods: { "fog": (graph: "fog.graph.ron") })"#,
+    );
+    let ended = desk.ends(0, &["check", "s.scene.ron", "c.compare.ron", "fog.graph.ron"]);
+    assert!(ended.out.contains("3 files without mistakes"), "{}", ended.out);
+    desk.put("s.scene.ron", "(camera: (position: (0, 1, 5), look_at: (0, 1, 0)), lihgts: [])");
+    let found = mistakes(&desk, "s.scene.ron");
+    assert_eq!((found[0]["code"].as_str(), found[0]["line"].as_u64()), (Some("unknown-field"), Some(1)));
+    let named = &mistakes(&desk, "c.compare.ron")[0];
+    assert_eq!((&named["code"], &named["file"]), (&found[0]["code"], &found[0]["file"]));
+    assert_eq!(named["related"][0]["file"].as_str(), Some("c.compare.ron"));
+    assert!(desk.ends(2, &["check", "t.test.ron"]).err.contains("`tyndall test t.test.ron`"));
+}
+
+#[test]
 fn all_mistakes_are_told_in_the_order_of_the_file() {
     let desk = Desk::new();
     desk.put("wrong.graph.ron", WRONG);

@@ -70,6 +70,89 @@ fn each_reason_not_to_run_has_its_own_end() {
     assert_eq!(last_line(&desk.ends(0, &["test", "--filter", "fog"])), "1 passed, 0 failed");
 }
 
+/// Whatever a user may get wrong about files, in words that say what.
+#[test]
+fn files_that_are_wrong_are_told_by_their_names() {
+    let desk = Desk::new();
+    test(&desk, "\"air.radiance\": (golden: RelativeRmse(1e-5))");
+    desk.ends(0, &["test", "--bless"]);
+    // The same file by two names is one test.
+    assert_eq!(last_line(&desk.ends(0, &["test", "fog.test.ron", "./fog.test.ron", "."])), "1 passed, 0 failed");
+    // A port that no test looks at is no success.
+    let nothing = desk.ends(2, &["test", "--tap", "aire.*"]);
+    assert!(nothing.err.contains("no test looks at a port that matches `aire.*`"), "{}", nothing.err);
+    assert_eq!(last_line(&nothing), "0 passed, 0 failed");
+    desk.put("lost.test.ron", "(version: 1, graph: \"lost.graph.ron\", taps: { \"*\": (properties: [Finite]) })");
+    let lost = desk.ends(2, &["test", "lost.test.ron"]);
+    assert!(
+        lost.out.contains("there is no file `lost.graph.ron`") && lost.out.contains("lost.test.ron:1:21"),
+        "{}",
+        lost.out
+    );
+
+    let golden = desk.path("fog.goldens/air.radiance.exr");
+    let content = std::fs::read(&golden).unwrap();
+    std::fs::write(&golden, &content[..content.len() / 2]).unwrap();
+    assert!(desk.ends(1, &["test", "fog.test.ron"]).out.contains("do not belong together"));
+    std::fs::remove_file(&golden).unwrap();
+    std::fs::create_dir(&golden).unwrap();
+    let folder = desk.ends(1, &["test", "fog.test.ron"]);
+    assert!(folder.out.contains("air.radiance.exr` cannot be read"), "{}", folder.out);
+    std::fs::remove_dir(&golden).unwrap();
+    std::fs::write(&golden, content).unwrap();
+    desk.put("fog.goldens/goldens.ron", "{ torn");
+    let torn = desk.ends(2, &["test", "fog.test.ron"]);
+    assert!(torn.out.contains("delete it and bless again"), "{}", torn.out);
+    std::fs::create_dir(desk.path("folder.test.ron")).unwrap();
+    for arguments in [&["test"][..], &["test", "folder.test.ron"]] {
+        assert!(desk.ends(2, arguments).err.contains("folder.test.ron is called like a test, and is a folder"));
+    }
+}
+
+/// Where the report cannot stand, nothing is rendered for it; where it can, it is there as a whole.
+#[test]
+fn reports_go_into_folders_of_their_own() {
+    let desk = Desk::new();
+    test(&desk, "\"air.radiance\": (properties: [Finite])");
+    desk.put("mine/notes.txt", "mine");
+    desk.put("file", "");
+    for (folder, why) in [
+        ("mine", "holds other files"),
+        ("file", "it is a file"),
+        ("file/report", "it is a file"),
+        (".", "no name of a folder"),
+    ] {
+        let refused = desk.ends(2, &["test", "--report", folder]);
+        assert!(refused.err.contains(why) && refused.out.is_empty(), "{folder}: {}{}", refused.err, refused.out);
+    }
+    for _ in 0..2 {
+        let written = desk.ends(0, &["test", "--report", "out/report"]);
+        assert!(written.out.contains("wrote out/report/index.html") && last_line(&written) == "1 passed, 0 failed");
+    }
+    assert_eq!(desk.files("out"), ["report"]);
+    assert_eq!(desk.files("out/report"), ["index.html", "report.css", "report.js", "test-fog", "test-fog.html"]);
+    let unwritten = desk.ends(2, &["test", "--json", "file/figures.json"]);
+    assert!(unwritten.out.contains("1 passed, 0 failed") && unwritten.err.contains("file/figures.json"));
+}
+
+/// A shader that does not compile stops every test, and is told once.
+#[test]
+fn a_broken_shader_is_told_once() {
+    let desk = Desk::new();
+    desk.put("plugins/lens/plugin.ron", "(name: \"lens\", version: \"0.1.0\", about: \"a lens\", passes: { \"blur\": (about: \"blur\", shader: \"blur.wgsl\", ports: {}) })");
+    desk.put("plugins/lens/blur.wgsl", "fn main() { let a = nonsense; }");
+    for name in ["a", "b", "c"] {
+        let text = "(version: 1, graph: \"fog.graph.ron\", size: (24, 16), taps: { \"air.radiance\": (properties: [Finite]) })";
+        desk.put(&format!("{name}.test.ron"), text);
+    }
+    for jobs in ["1", "3"] {
+        let failed = desk.run(&["test", "--jobs", jobs]);
+        assert_eq!(last_line(&failed), "0 passed, 3 failed");
+        assert_eq!(failed.out.matches("nonsense").count(), 2, "once, with the line of the file: {}", failed.out);
+        assert_eq!(failed.out.matches("told above").count(), 2, "{}", failed.out);
+    }
+}
+
 #[test]
 fn goldens_without_a_test_fail() {
     let desk = blessed();

@@ -16,6 +16,7 @@ mod fuzz;
 mod image_coverage;
 mod image_tests;
 mod modes;
+mod orders;
 mod outputs;
 mod physics;
 mod pictures;

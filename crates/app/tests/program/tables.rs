@@ -23,7 +23,41 @@ fn every_pass_is_documented() {
             }
         }
         assert!(!pass["outputs"].as_array().unwrap().is_empty(), "{name} has no output");
+        for limit in pass["limits"].as_array().unwrap() {
+            assert!(page.contains(&format!("  {}: ", limit["scene"].as_str().unwrap())), "{name}: {limit}");
+        }
     }
+    let tables = desk.ends(0, &["passes", "surface_radiance.lobes"]).out;
+    assert!(tables.contains(&format!("tables of {} shininesses", tyndall_scene::SHININESSES_MAX)), "{tables}");
+    assert!(tables.contains(&format!("tables of {} spots", tyndall_scene::SPOTS_MAX)), "{tables}");
+    let phong = desk.ends(0, &["passes", "surface_radiance.phong"]).out;
+    assert!(phong.contains("needs the input table"), "{phong}");
+}
+
+/// A table for each, as many as there can be; of more it is told which stand for all.
+#[test]
+fn more_lobes_than_tables_are_told() {
+    let desk = Desk::new();
+    let fog = crate::run::shipped("fog");
+    let warned = |count: usize| {
+        let ball = |i: usize| {
+            format!("(mesh: Sphere(radius: 0.1), material: (specular: (0.1, 0.1, 0.1), shininess: {}))", i + 1)
+        };
+        let spot = |i: usize| {
+            format!("Spot(position: (0, 2, 0), direction: (0, -1, 0), intensity: (1, 1, 1), exponent: {})", i + 1)
+        };
+        let all = |one: &dyn Fn(usize) -> String, count| (0..count).map(one).collect::<Vec<_>>().join(", ");
+        let (balls, spots) = (tyndall_scene::SHININESSES_MAX + count, tyndall_scene::SPOTS_MAX + count);
+        let scene = format!(
+            "(camera: (position: (0, 1, 5), look_at: (0, 1, 0)), medium: (extinction: (0.1, 0.1, 0.1)), lights: [{}], objects: [{}])",
+            all(&spot, spots),
+            all(&ball, balls)
+        );
+        desk.put("many.scene.ron", &scene);
+        let ended = desk.ends(0, &["render", fog.to_str().unwrap(), "--scene", "many.scene.ron", "--size", "8x6"]);
+        ["has more: 23 between", "the first 8 stand for them"].map(|text| ended.err.contains(text))
+    };
+    assert_eq!((warned(0), warned(1)), ([false, false], [true, true]));
 }
 
 #[test]

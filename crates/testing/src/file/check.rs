@@ -4,7 +4,7 @@ use tyndall_document::{Diagnostic, Diagnostics, Place, Span, near};
 use tyndall_graph::descriptor::{Class, PortKind};
 use tyndall_graph::{Graph, PortRef};
 
-use super::{Golden, Property, Reference, TestFile};
+use super::{Change, Golden, Property, Reference, TestFile};
 use crate::codes;
 use crate::metric::Metric;
 
@@ -90,6 +90,25 @@ impl Checker<'_> {
                 Err(problem) => self.out.push(Diagnostic { code: codes::UNKNOWN_TAP, ..problem }),
             }
         }
+        self.references_exist();
+    }
+
+    /// References on the CPU that relations ask.
+    fn references_exist(&mut self) {
+        let asked = self.file.relations.iter().flat_map(|relation| &relation.expect);
+        for expectation in asked.filter(|expectation| matches!(expectation.change, Change::CpuReference(_))) {
+            let place = self.file.place(expectation.span);
+            let Ok(port) = self.graph.find(&expectation.port, place.clone()) else { continue };
+            if let Some((code, why)) = self.without_reference(port) {
+                self.out.push(Diagnostic::error(code, place, why));
+            }
+        }
+    }
+
+    fn without_reference(&self, port: PortRef) -> Option<(tyndall_document::Code, String)> {
+        let pass = &self.graph.pass(port.pass).descriptor().name;
+        let message = format!("`{pass}` has no reference on the CPU");
+        (!(self.has_reference)(pass)).then_some((codes::NO_REFERENCE, message))
     }
 
     fn tapped(&mut self, port: PortRef) -> Option<Tapped> {
@@ -137,11 +156,7 @@ impl Checker<'_> {
                 wrong("is no colour and has no alpha")
             }
             Property::UnitLength { .. } if class != Some(Class::Vector) => wrong("holds no vectors"),
-            Property::CpuReference { .. } => {
-                let pass = &self.graph.pass(port.pass).descriptor().name;
-                let message = format!("`{pass}` has no reference on the CPU");
-                (!(self.has_reference)(pass)).then_some((codes::NO_REFERENCE, message))
-            }
+            Property::CpuReference { .. } => self.without_reference(port),
             _ => None,
         }
     }

@@ -181,7 +181,7 @@ fn relation(decoder: &mut Decoder<'_>, node: &Node) -> Option<Relation> {
 }
 
 fn change(decoder: &mut Decoder<'_>, node: &Node) -> Option<Change> {
-    let known = ["Same", "Scaled", "Shifted", "SumOfRuns", "NoMore", "NoLess", "Differs"];
+    let known = ["Same", "Scaled", "Shifted", "SumOfRuns", "NoMore", "NoLess", "Differs", "CpuReference"];
     let (name, content) = decoder.variant(node, "a change", &known)?;
     let Some(content) = content else {
         decoder.wrong_type(node, "a change with what it needs, Same(by: Exact) say");
@@ -189,10 +189,14 @@ fn change(decoder: &mut Decoder<'_>, node: &Node) -> Option<Change> {
     };
     let what = format!("`{name}`");
     match name {
-        "Same" | "SumOfRuns" => {
+        "Same" | "SumOfRuns" | "CpuReference" => {
             let fields = decoder.fields(content, &what, &["by"])?;
             let by = by(decoder, &fields)?;
-            Some(if name == "Same" { Change::Same(by) } else { Change::SumOfRuns(by) })
+            Some(match name {
+                "Same" => Change::Same(by),
+                "SumOfRuns" => Change::SumOfRuns(by),
+                _ => Change::CpuReference(by),
+            })
         }
         "Scaled" => {
             let fields = decoder.fields(content, &what, &["factor", "by"])?;

@@ -207,6 +207,8 @@ pub enum Change {
     NoLess(f64),
     /// Each other run differs, by more than this relative RMSE.
     Differs(f64),
+    /// Each other run is as the pass's reference on the CPU computes it.
+    CpuReference(Metric),
 }
 
 impl TestFile {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use tyndall_document::{Decoder, Diagnostic, Diagnostics, Node, Source, Value, parse};
+use tyndall_document::{Decoder, Diagnostic, Diagnostics, MISSING_FILE, Node, Source, Value, parse};
 use tyndall_render::{Request, Setting};
 
 use super::expect::{metric, properties, relations};
@@ -69,8 +69,16 @@ fn test(source: &Arc<Source>, path: &Path, root: &Node, out: &mut Diagnostics) -
     Some(TestFile { source: source.clone(), path: path.to_owned(), about, request, frames, taps, relations })
 }
 
+/// A file that the test names; one that is not there is told where it is named.
 fn file(decoder: &mut Decoder<'_>, folder: &Path, node: &Node) -> Option<PathBuf> {
-    decoder.text(node).map(|text| folder.join(text))
+    let path = folder.join(decoder.text(node)?);
+    if path.exists() {
+        return Some(path);
+    }
+    let place = decoder.place(node.span);
+    let message = format!("there is no file `{}`", path.display());
+    decoder.report(Diagnostic::error(MISSING_FILE, place, message).suggest("paths are relative to this file"));
+    None
 }
 
 fn size(decoder: &mut Decoder<'_>, node: &Node) -> Option<(u32, u32)> {

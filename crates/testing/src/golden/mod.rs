@@ -54,7 +54,10 @@ pub fn file_name(key: &str, class: Class) -> String {
 /// Why there is none.
 pub fn read(folder: &Path, key: &str, records: &Records, like: &Picture) -> Result<Picture, Missing> {
     let path = folder.join(file_name(key, like.class));
-    let Ok(bytes) = std::fs::read(&path) else { return Err(Missing::File(path)) };
+    let bytes = std::fs::read(&path).map_err(|error| match error.kind() {
+        std::io::ErrorKind::NotFound => Missing::File(path.clone()),
+        _ => Missing::Unreadable(format!("the golden `{}` cannot be read: {error}", path.display())),
+    })?;
     let record = records.get(key).ok_or_else(|| Missing::Record(path.clone()))?;
     if record.content != record::content_hash(&bytes) {
         return Err(Missing::Torn(path));

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
 
 use tyndall_document::{Decoder, Diagnostics, Node, Source, parse};
 
 use super::RECORDS;
 use crate::adapter::AdapterClass;
+use crate::digest::Digest;
 use crate::fingerprint::Fingerprint;
 
 /// What one golden was made from.
@@ -30,9 +30,9 @@ pub struct Records(BTreeMap<String, Record>);
 
 /// A hash of a file's bytes, as the records hold it.
 pub(crate) fn content_hash(bytes: &[u8]) -> String {
-    let mut hasher = DefaultHasher::new();
-    bytes.hash(&mut hasher);
-    hex(hasher.finish())
+    let mut digest = Digest::default();
+    digest.bytes(bytes);
+    hex(digest.finish())
 }
 
 fn hex(number: u64) -> String {
@@ -102,7 +102,11 @@ impl Records {
                 entries.into_iter().filter_map(|(key, _, node)| Some((key.to_owned(), record(&mut decoder, node)?)));
             Self(records.collect())
         });
-        if out.has_errors() { Err(out) } else { Ok(records.unwrap_or_default()) }
+        if out.has_errors() {
+            let how = "`tyndall test --bless` writes this file: restore it, or delete it and bless again";
+            return Err(out.into_iter().map(|mistake| mistake.suggest(how)).collect());
+        }
+        Ok(records.unwrap_or_default())
     }
 
     /// Writes the records of a folder.

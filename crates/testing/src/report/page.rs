@@ -2,20 +2,20 @@
 
 use std::fmt::Write as _;
 
-use super::pictures::{MULTIPLES, Shown};
-use super::slug;
+use super::GENERATOR;
+use super::pictures::{MULTIPLES, STEPS, Shown};
 use crate::outcome::{Outcome, PassOutcome, PortOutcome, RelationOutcome, State};
 use crate::summary::escaped;
 
 /// Width and height of a pass in the drawing of the graph, and the room between, in CSS pixels.
-const CARD: usize = 190;
-const ROW: usize = 84;
-const GAP: usize = 46;
+const CARD: usize = 164;
+const ROW: usize = 88;
+const GAP: usize = 30;
 
 fn whole(title: &str, body: &str) -> String {
     let title = escaped(title);
     format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n\
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n{GENERATOR}\n\
          <title>{title}</title>\n<link rel=\"icon\" href=\"data:,\">\n<link rel=\"stylesheet\" href=\"report.css\">\n<script src=\"report.js\" defer></script>\n</head>\n\
          <body>\n{body}</body>\n</html>\n"
     )
@@ -30,16 +30,16 @@ pub(super) fn index(adapter: &str, outcomes: &[Outcome]) -> String {
         outcomes.len() - failed,
         escaped(adapter)
     );
-    let mut rows: Vec<(usize, &Outcome)> = outcomes.iter().enumerate().collect();
-    rows.sort_by_key(|(_, outcome)| outcome.passed());
-    for (number, outcome) in rows {
+    let mut rows: Vec<&Outcome> = outcomes.iter().collect();
+    rows.sort_by_key(|outcome| outcome.passed());
+    for outcome in rows {
         let class = if outcome.passed() { "passed" } else { "failed" };
         let first = outcome.guilty().first().map_or("", |pass| pass);
         let first = if first.is_empty() && !outcome.passed() { "could not be judged" } else { first };
         let _ = writeln!(
             body,
-            "<tr class=\"{class}\"><td><a href=\"{}.html\">{}</a><br><small>{}</small></td><td>{}</td><td>{}</td><td>{}</td><td>{:.0} ms</td></tr>",
-            slug(number, outcome),
+            "<tr class=\"{class}\"><td><a href=\"{}.html\">{}</a><br><small>{}</small></td><td class=\"first\">{}</td><td>{}</td><td>{}</td><td>{:.0} ms</td></tr>",
+            outcome.page,
             escaped(&outcome.name()),
             escaped(&outcome.about),
             escaped(first),
@@ -64,7 +64,9 @@ pub(super) fn test(outcome: &Outcome, folder: &str, shown: &[Shown]) -> String {
     );
     let text = outcome.text();
     if !text.is_empty() {
-        let _ = writeln!(body, "<pre>{}</pre>", escaped(&text));
+        // Without the indentation that lines below a test's name have.
+        let text: Vec<&str> = text.lines().map(|line| line.strip_prefix("  ").unwrap_or(line)).collect();
+        let _ = writeln!(body, "<pre>{}</pre>", escaped(&text.join("\n")));
     }
     body += &graph(outcome, folder);
     for relation in &outcome.relations {
@@ -129,7 +131,7 @@ fn graph(outcome: &Outcome, folder: &str) -> String {
         cards += &card(outcome, pass, (*x, *y), folder);
     }
     format!(
-        "<div class=\"graph\" style=\"width:{width}px;height:{height}px\"><svg width=\"{width}\" height=\"{height}\" aria-hidden=\"true\">{lines}</svg>{cards}</div>\n"
+        "<div class=\"graph\" tabindex=\"0\" role=\"region\" aria-label=\"the graph\" style=\"width:{width}px;height:{height}px\"><svg width=\"{width}\" height=\"{height}\" aria-hidden=\"true\">{lines}</svg>{cards}</div>\n"
     )
 }
 
@@ -213,17 +215,18 @@ fn section(outcome: &Outcome, port: &PortOutcome, shown: &Shown, folder: &str) -
         let _ = writeln!(
             html,
             "<div class=\"pictures\"><figure><div class=\"compare\">{}<div class=\"over\">{}</div></div>\
-             <input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"expected to the left, actual to the right\"><figcaption>expected | actual</figcaption></figure>\
-             <figure>{}<figcaption>difference: blue below the tolerance, yellow at ten times it</figcaption></figure>\
-             <figure>{}<figcaption>{}</figcaption></figure><figure>{}<figcaption>actual and expected, {} to {}</figcaption></figure></div>",
+             <input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"expected to the left, actual to the right\"><figcaption>expected to the left, actual to the right</figcaption></figure>\
+             <figure>{}<figcaption>difference: blue within the tolerance, red beyond it, white at {} times it</figcaption></figure>\
+             <figure>{}<figcaption>{}</figcaption></figure><figure>{}<figcaption><span class=\"counts\"><span><i class=\"actual\"></i>actual</span><span><i class=\"expected\"></i>expected</span><span>{} to {}</span></span></figcaption></figure></div>",
             picture("actual"),
             picture("expected"),
             picture("difference"),
+            short(shown.largest),
             picture("failing"),
             failing(shown),
             histogram(shown),
-            shown.range.0,
-            shown.range.1
+            short(f64::from(shown.range.0)),
+            short(f64::from(shown.range.1))
         );
     } else if shown.actual {
         let _ = writeln!(
@@ -231,8 +234,8 @@ fn section(outcome: &Outcome, port: &PortOutcome, shown: &Shown, folder: &str) -
             "<div class=\"pictures\"><figure>{}<figcaption>actual</figcaption></figure><figure>{}<figcaption>{} to {}</figcaption></figure></div>",
             picture("actual"),
             histogram(shown),
-            shown.range.0,
-            shown.range.1
+            short(f64::from(shown.range.0)),
+            short(f64::from(shown.range.1))
         );
     }
     if port.metric.is_some() {
@@ -241,9 +244,23 @@ fn section(outcome: &Outcome, port: &PortOutcome, shown: &Shown, folder: &str) -
     html + "</details>\n"
 }
 
+/// A number for the eye: three digits.
+fn short(number: f64) -> String {
+    let size = number.abs();
+    if size == 0.0 || (1e-3..1e5).contains(&size) {
+        let digits = if size == 0.0 { 0 } else { (2 - size.log10().floor() as i32).max(0) as usize };
+        return format!("{number:.digits$}");
+    }
+    format!("{number:.2e}")
+}
+
+/// How many pixels are beyond each multiple of the tolerance, with their colours.
 fn failing(shown: &Shown) -> String {
-    let counts = MULTIPLES.iter().zip(shown.failing).map(|(multiple, count)| format!("{count} beyond {multiple}×"));
-    format!("of {} pixels: {} the tolerance", shown.pixels, counts.collect::<Vec<_>>().join(", "))
+    let count = |((multiple, count), [r, g, b]): ((&f64, usize), &[u8; 3])| {
+        format!("<span><i style=\"background:rgb({r},{g},{b})\"></i>{multiple}×: {count}</span>")
+    };
+    let counts: String = MULTIPLES.iter().zip(shown.failing).zip(&STEPS[1..]).map(count).collect();
+    format!("of {} pixels, beyond the tolerance <span class=\"counts\">{counts}</span>", shown.pixels)
 }
 
 /// Bars of what came out over those of what was expected; the height is the logarithm of the count.
@@ -263,4 +280,15 @@ fn histogram(shown: &Shown) -> String {
         }
     }
     format!("<svg class=\"histogram\" viewBox=\"0 0 192 80\" role=\"img\" aria-label=\"histogram\">{bars}</svg>")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let numbers = [0.0, 1.0, -1.0, 0.752_676_3, 12.3456, 183_921.928, 2.5e-7, 0.00123].map(short);
+        assert_eq!(numbers, ["0", "1.00", "-1.00", "0.753", "12.3", "1.84e5", "2.50e-7", "0.00123"]);
+    }
 }

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use tyndall_graph::descriptor::Class;
-use tyndall_image::{Image, Meaning, srgb_from_linear};
+use tyndall_image::{Error, Image, Meaning, NewFolder, encode_png, srgb_from_linear};
 
-use crate::outcome::{Outcome, PortOutcome};
+use crate::outcome::PortOutcome;
 use crate::picture::Picture;
 
 /// Multiples of the tolerance at which failing pixels are shown.
@@ -21,33 +21,32 @@ pub(super) struct Shown {
     pub failing: [usize; 4],
     /// Pixels in all.
     pub pixels: usize,
+    /// The largest difference, over the tolerance: what is white in the picture of the difference.
+    pub largest: f64,
     /// How many numbers of what came out, and of what was expected, lie in each of equal ranges.
     pub histograms: [Vec<usize>; 2],
     /// From where to where the ranges go.
     pub range: (f32, f32),
 }
 
-/// Writes the pictures of all ports of a test; what is shown of each, in the order of the outcome's ports.
-pub(super) fn write(folder: &Path, outcome: &Outcome) -> Result<Vec<Shown>, String> {
-    outcome.ports.iter().map(|port| of_port(folder, port)).collect()
-}
-
-fn of_port(folder: &Path, port: &PortOutcome) -> Result<Shown, String> {
+/// Writes the pictures of a port into the folder `name` of a report, and gives what is shown of it.
+pub(super) fn write(report: &NewFolder, name: &str, port: &PortOutcome) -> Result<Shown, Error> {
     let mut shown = Shown {
         actual: false,
         compared: false,
         failing: [0; 4],
         pixels: 0,
+        largest: 0.0,
         histograms: [Vec::new(), Vec::new()],
         range: (0.0, 0.0),
     };
     let Some(actual) = &port.actual else { return Ok(shown) };
-    let save = |name: &str, image: Image| {
-        let path = folder.join(format!("{}.{}.{name}.png", port.name, port.frame));
-        tyndall_image::write(&path, &image, Meaning::Display).map_err(|error| error.to_string())
+    let save = |what: &str, image: &Image| {
+        let path = format!("{name}/{}.{}.{what}.png", port.name, port.frame);
+        report.write(&path, &encode_png(Path::new(&path), image, Meaning::Display)?)
     };
     let exposure = Exposure::of(port.expected.as_ref().unwrap_or(actual));
-    save("actual", exposure.shown(actual))?;
+    save("actual", &exposure.shown(actual))?;
     shown.actual = true;
     shown.range = exposure.range;
     shown.histograms[0] = histogram(actual, exposure.range);
@@ -56,13 +55,18 @@ fn of_port(folder: &Path, port: &PortOutcome) -> Result<Shown, String> {
         let scale = metric.scale(expected);
         let excess = excess(actual, expected, scale);
         let (width, height) = flat(&actual.image);
-        save("expected", exposure.shown(expected))?;
-        save("difference", Image::new(width, height, 3, excess.iter().flat_map(|excess| heat(*excess)).collect()))?;
+        let finite = excess.iter().copied().filter(|excess| excess.is_finite());
+        shown.largest = finite.fold(10.0, f64::max);
+        save("expected", &exposure.shown(expected))?;
+        save(
+            "difference",
+            &Image::new(width, height, 3, excess.iter().flat_map(|excess| heat(*excess, shown.largest)).collect()),
+        )?;
         for (index, multiple) in MULTIPLES.into_iter().enumerate() {
             shown.failing[index] = excess.iter().filter(|excess| **excess > multiple).count();
         }
         let level = |excess: &f64| MULTIPLES.iter().filter(|multiple| excess > multiple).count();
-        save("failing", Image::new(width, height, 3, excess.iter().flat_map(|excess| step(level(excess))).collect()))?;
+        save("failing", &Image::new(width, height, 3, excess.iter().flat_map(|excess| step(level(excess))).collect()))?;
         shown.pixels = excess.len();
         shown.histograms[1] = histogram(expected, exposure.range);
         shown.compared = true;
@@ -86,8 +90,11 @@ impl Exposure {
     fn of(picture: &Picture) -> Self {
         let compared = picture.compared();
         let mut finite: Vec<f32> = compared.data.into_iter().filter(|value| value.is_finite()).collect();
-        finite.sort_by(f32::total_cmp);
-        let at = |part: f32| finite.get((part * (finite.len().max(1) - 1) as f32) as usize).copied().unwrap_or(0.0);
+        let mut at = |part: f32| {
+            let place = (part * finite.len().saturating_sub(1) as f32) as usize;
+            // Only what stands at the place is wanted, and not all in order.
+            if finite.is_empty() { 0.0 } else { *finite.select_nth_unstable_by(place, f32::total_cmp).1 }
+        };
         let range = match picture.class {
             Class::Display => (0.0, 1.0),
             Class::Vector => (-1.0, 1.0),
@@ -137,21 +144,28 @@ fn excess(actual: &Picture, expected: &Picture, scale: f64) -> Vec<f64> {
     pixels.map(|(a, b)| a.iter().zip(b).map(difference).fold(0.0, f64::max)).collect()
 }
 
-/// Black where nothing differs, blue below the tolerance, yellow at ten times it and white beyond.
-fn heat(excess: f64) -> [f32; 3] {
-    // Of a hundredth of the tolerance to a hundred times it.
-    let part = ((excess.max(1e-2).log10() + 2.0) / 4.0).clamp(0.0, 1.0) as f32;
+/// Black where nothing differs, blue below the tolerance, red beyond it, yellow, and white at the largest difference;
+/// magenta where there is no number.
+fn heat(excess: f64, largest: f64) -> [f32; 3] {
+    if !excess.is_finite() {
+        return [1.0, 0.0, 1.0];
+    }
+    if excess <= 1.0 {
+        // From a hundredth of the tolerance.
+        let part = ((excess.max(1e-2).log10() + 2.0) / 2.0) as f32;
+        return [0.1 * part, 0.3 * part, 0.9 * part];
+    }
+    let part = (excess.ln() / largest.ln()).clamp(0.0, 1.0) as f32;
     let channel = |from: f32, to: f32| ((part - from) / (to - from)).clamp(0.0, 1.0);
-    [
-        channel(0.4, 0.7),
-        channel(0.5, 1.0),
-        if part < 0.5 { channel(0.0, 0.4) } else { channel(0.9, 1.0).max(1.0 - channel(0.5, 0.7)) },
-    ]
+    [0.6 + 0.4 * channel(0.0, 0.4), channel(0.1, 0.7), channel(0.7, 1.0)]
 }
 
-/// Grey levels of failing pixels: one for each multiple of the tolerance that is passed.
+/// The colours of pixels by how many multiples of the tolerance they are beyond, sRGB.
+pub(super) const STEPS: [[u8; 3]; MULTIPLES.len() + 1] =
+    [[20, 20, 26], [64, 90, 153], [217, 166, 38], [230, 80, 30], [255, 190, 200]];
+
 fn step(level: usize) -> [f32; 3] {
-    [[0.08, 0.08, 0.10], [0.25, 0.35, 0.60], [0.85, 0.65, 0.15], [0.95, 0.35, 0.15], [1.0, 0.85, 0.85]][level.min(4)]
+    STEPS[level.min(MULTIPLES.len())].map(|code| f32::from(code) / 255.0)
 }
 
 /// Numbers in 32 equal ranges; those outside count in the outermost, those that are not finite nowhere.
@@ -178,6 +192,21 @@ mod tests {
         let found = excess(&picture(0.5), &picture(0.25), 0.125);
         assert!(found.len() == 16 && found.iter().all(|excess| (excess - 2.0).abs() < 1e-9));
         assert!(excess(&picture(f32::NAN), &picture(0.25), 0.1).iter().all(|excess| excess.is_infinite()));
+    }
+
+    #[test]
+    fn no_two_differences_look_alike() {
+        let rises = |excesses: &[f64]| {
+            let brightness: Vec<f32> = excesses.iter().map(|excess| heat(*excess, 1e4).iter().sum()).collect();
+            assert!(brightness.windows(2).all(|pair| pair[0] < pair[1]), "{brightness:?}");
+        };
+        rises(&[0.0, 0.1, 0.5, 1.0]);
+        rises(&[1.1, 3.0, 30.0, 300.0, 1e4]);
+        // The tolerance is where blue ends and red begins.
+        let ([red, _, blue], [red_beyond, _, blue_beyond]) = (heat(1.0, 1e4), heat(1.001, 1e4));
+        assert!(blue > 3.0 * red && red_beyond > 3.0 * blue_beyond);
+        assert_eq!((heat(0.0, 1e4), heat(1e4, 1e4)), ([0.0; 3], [1.0; 3]));
+        assert_eq!(heat(f64::INFINITY, 1e4), [1.0, 0.0, 1.0]);
     }
 
     #[test]

@@ -1,10 +1,26 @@
 "use strict";
-// The slider uncovers what was expected over what came out.
+// The slider uncovers what was expected over what came out; so does a finger or the mouse on the pictures.
 for (const input of document.querySelectorAll("figure input[type=range]")) {
-    const over = input.parentElement.querySelector(".over");
-    const uncover = () => { over.style.clipPath = `inset(0 ${100 - input.value}% 0 0)`; };
+    const compare = input.parentElement.querySelector(".compare");
+    const uncover = () => compare.style.setProperty("--at", `${input.value}%`);
+    const follow = (event) => {
+        if (!event.buttons) return;
+        const { left, width } = compare.getBoundingClientRect();
+        input.value = 100 * (event.clientX - left) / width;
+        uncover();
+    };
     input.addEventListener("input", uncover);
+    compare.addEventListener("pointerdown", (event) => { compare.setPointerCapture(event.pointerId); follow(event); });
+    compare.addEventListener("pointermove", follow);
+    compare.addEventListener("dragstart", (event) => event.preventDefault());
     uncover();
+}
+
+// Of a graph that is wider than the window, the pass whose fault it is.
+const guilty = document.querySelector(".card.diverged");
+if (guilty) {
+    const graph = guilty.parentElement;
+    graph.scrollLeft = guilty.offsetLeft + guilty.offsetWidth / 2 - graph.clientWidth / 2;
 }
 
 const ports = [...document.querySelectorAll("details.port")];

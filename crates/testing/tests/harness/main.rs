@@ -3,6 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod attribution;
+mod browser;
 mod chain;
 mod goldens;
+mod report;
 mod robustness;
+mod unordered;

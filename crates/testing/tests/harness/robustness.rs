@@ -1,10 +1,7 @@
 //! Another order, other memory, once more: what must not change a bit.
 
-use std::collections::BTreeSet;
 use std::fs;
 
-use tyndall_document::{Diagnostics, Source};
-use tyndall_graph::{Order, Overrides, PlanOptions};
 use tyndall_testing::{Options, Robustness};
 
 use crate::chain::Chain;
@@ -42,22 +39,6 @@ fn every_way_goes_with_another_size() {
     let small = Options { size: Some((9, 7)), ..all() };
     let outcome = chain.run(&small);
     assert!(outcome.passed(), "{}", outcome.text());
-}
-
-#[test]
-fn at_least_ten_distinct_orders_of_a_graph_are_drawn() {
-    let text = include_str!("../orders.graph.ron");
-    let registry = tyndall_render::registry(vec![tyndall_core::plugin()], &[]).unwrap();
-    let mut out = Diagnostics::default();
-    let file = tyndall_graph::read(&Source::new("orders.graph.ron", text), &mut out).unwrap();
-    let graph = tyndall_graph::validate(&file, registry.catalogue(), &Overrides::default(), &mut out).unwrap();
-    let mut orders = BTreeSet::new();
-    for seed in 0..32 {
-        let options = PlanOptions { order: Order::Shuffled(seed), ..PlanOptions::new(graph.size) };
-        let plan = tyndall_graph::plan(&graph, &options).unwrap();
-        orders.insert(plan.passes.iter().map(|pass| pass.index).collect::<Vec<_>>());
-    }
-    assert!(orders.len() >= 10, "{} orders", orders.len());
 }
 
 /// The goldens of the repository stay small.

@@ -9,6 +9,7 @@
 
 mod cases;
 mod height_fog;
+mod invariants;
 mod on_gpu;
 mod phases;
 

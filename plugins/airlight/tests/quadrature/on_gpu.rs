@@ -90,6 +90,7 @@ pub fn light(light: &Light) -> layout::Light {
             direction: floats(direction),
             exponent: exponent as f32,
             cos_cutoff: cutoff.to_radians().cos() as f32,
+            sin_cutoff: cutoff.to_radians().sin() as f32,
             ..Default::default()
         },
         Light::Directional { direction, irradiance } => {

@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::DVec3;
 use tyndall_document::{Source, render_text};
 use tyndall_scene::{Overrides, Scene};
-use tyndall_shaders::scene::Triangle;
+use tyndall_shaders::scene::Caster;
 
 /// Numbers that look random, the same in every run.
 pub struct Random(pub u64);
@@ -35,7 +35,7 @@ pub struct Setting {
 }
 
 impl Setting {
-    pub fn corners(&self) -> Vec<Triangle> {
+    pub fn corners(&self) -> Vec<Caster> {
         self.triangles.iter().map(|triangle| triangle.map(|index| self.positions[index as usize])).collect()
     }
 

@@ -1,0 +1,84 @@
+//! `mutants`: whether image tests notice mistakes.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use tyndall_testing::mutants::{Figures, Hunt, PassFindings, Trouble, hunt, json, missed, table};
+use tyndall_testing::{Session, discover};
+
+use crate::App;
+use crate::cli::{Arguments, Mutants};
+use crate::failure::Failure;
+use crate::{plugins, terminal};
+
+pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Mutants) -> Result<(), Failure> {
+    let start = Instant::now();
+    let here = [PathBuf::from(".")];
+    let found = discover(if verb.paths.is_empty() { &here } else { &verb.paths }).map_err(Failure::Usage)?;
+    if found.tests.is_empty() {
+        return Err(Failure::Usage("there is no test: a test is a file NAME.test.ron".to_owned()));
+    }
+    let request = Hunt {
+        tests: found.tests,
+        filter: verb.filter.clone(),
+        per_pass: verb.per_pass as usize,
+        seed: verb.seed,
+        goldens: !verb.no_goldens,
+        untested: verb.paths.is_empty(),
+    };
+    let search = plugins::search_paths(arguments, &[]);
+    let mut session = Session::new(app.plugins.clone(), search, verb.adapter.as_deref())?;
+    let findings = hunt(&mut session, &request, &mut told).map_err(failure)?;
+    if findings.is_empty() {
+        return Err(Failure::Usage(format!("no pass that these tests run has {:?} in its name", verb.filter)));
+    }
+    terminal::line("");
+    table(&findings).iter().for_each(|line| terminal::line(line));
+    if let Some(path) = &verb.json {
+        tyndall_image::write_bytes(path, format!("{:#}\n", json(verb.seed, &findings)).as_bytes())?;
+        terminal::line(&format!("\nwrote {}", path.display()));
+    }
+    conclude(verb, &findings, start)
+}
+
+/// What became of the mutants of a pass, as soon as it is done.
+fn told(of_pass: &PassFindings) {
+    let Figures { made, killed, without_goldens, .. } = Figures::of([of_pass]);
+    let seconds = of_pass.took.as_secs_f64();
+    terminal::line(&format!(
+        "{}: {killed} of {made} killed, {without_goldens} without goldens  ({seconds:.1} s)",
+        of_pass.pass
+    ));
+    missed(of_pass).iter().for_each(|line| terminal::line(line));
+}
+
+fn failure(trouble: Trouble) -> Failure {
+    match trouble {
+        Trouble::Failing(outcome) => {
+            terminal::line(&format!("FAILED {}", outcome.name()));
+            terminal::text(&outcome.text());
+            terminal::line("a test fails before anything is changed: make `tyndall test` pass first");
+            Failure::Told(outcome.exit_code())
+        }
+        Trouble::Error(error) => error.into(),
+        Trouble::Unbounded(pass) => Failure::Usage(format!(
+            "`{pass}` does not come out the same once its loops are made to end: no mutant of it can be judged"
+        )),
+    }
+}
+
+/// The last line, and whether it is enough.
+fn conclude(verb: &Mutants, findings: &[PassFindings], start: Instant) -> Result<(), Failure> {
+    let figures = Figures::of(findings);
+    let (killed, alone) = figures.percent();
+    let Figures { made, misnamed, survived, explained, .. } = figures;
+    let seconds = start.elapsed().as_secs_f64();
+    let all = if verb.no_goldens { String::new() } else { format!("{} killed ({killed:.1} %), ", figures.killed) };
+    terminal::line(&format!(
+        "\n{made} mutants of {} passes: {all}{} without goldens ({alone:.1} %), {misnamed} laid at another pass, {survived} survived ({explained} with a reason) in {seconds:.0} s",
+        findings.iter().filter(|of_pass| of_pass.sites > 0).count(),
+        figures.without_goldens,
+    ));
+    let enough = alone >= verb.at_least_without_goldens && (verb.no_goldens || killed >= verb.at_least);
+    if enough { Ok(()) } else { Err(Failure::Told(1)) }
+}

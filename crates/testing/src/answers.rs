@@ -1,0 +1,49 @@
+//! What references on the CPU have said, so that none is asked the same thing twice.
+
+use std::collections::{BTreeMap, HashMap};
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use tyndall_plugin::{Reference, ReferenceInput};
+
+type Answer = Result<BTreeMap<&'static str, Vec<f32>>, String>;
+
+/// What references on the CPU have said, by what they were asked.
+#[derive(Default)]
+pub(crate) struct Answers(Mutex<HashMap<u64, Arc<Answer>>>);
+
+impl Answers {
+    /// What the reference of a pass says of these inputs.
+    pub fn of(&self, pass: &str, reference: Reference, input: &ReferenceInput<'_>) -> Arc<Answer> {
+        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        known.entry(question(pass, input)).or_insert_with(|| Arc::new(reference(input))).clone()
+    }
+}
+
+fn question(pass: &str, input: &ReferenceInput<'_>) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    pass.hash(&mut hasher);
+    for (name, data) in &input.inputs {
+        (name, data.width, data.height, data.layers, data.channels).hash(&mut hasher);
+        data.data.iter().for_each(|number| number.to_bits().hash(&mut hasher));
+    }
+    for (name, resource) in &input.resources {
+        (name, resource).hash(&mut hasher);
+    }
+    for (name, value) in &input.params {
+        (name, value.to_string()).hash(&mut hasher);
+    }
+    format!("{:?}", input.scene).hash(&mut hasher);
+    if let Some(surfaces) = input.surfaces {
+        for triangle in &surfaces.triangles {
+            triangle.material.hash(&mut hasher);
+            for corner in &triangle.corners {
+                let [position, normal] =
+                    [corner.position, corner.normal].map(|vector| vector.to_array().map(f64::to_bits));
+                (position, normal, corner.uv.to_array().map(f64::to_bits)).hash(&mut hasher);
+            }
+        }
+        format!("{:?}", (&surfaces.materials, &surfaces.textures)).hash(&mut hasher);
+    }
+    hasher.finish()
+}

@@ -1,0 +1,170 @@
+//! What each pixel's ray meets, in double precision: what image tests hold `gbuffer.wgsl` and `visibility.wgsl` against.
+//!
+//! Every ray is met with every triangle that may be there, so nothing here knows of rasterisers, of depth buffers or of a
+//! triangle that was found before. A rasteriser rounds corners to parts of a pixel, so where a pixel's centre lies that near to an edge it may
+//! see the triangle on the other side: tests leave room for a few such pixels.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use glam::{DVec2, DVec3};
+use tyndall_plugin::ReferenceInput;
+use tyndall_shaders::colour::linear_from_srgb;
+use tyndall_shaders::ray::{Ray, ray_of_pixel};
+use tyndall_shaders::scene::{Camera, Surfaces, Texture, Triangle, Wrap};
+
+/// Depth buffer times distance along the view axis, m.
+const RASTER_DEPTH: f64 = 1e-6;
+
+/// Every port of `core.gbuffer`.
+pub(crate) fn gbuffer(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String> {
+    let (camera, surfaces, size) = (&input.scene()?.camera, input.surfaces()?, input.size("depth")?);
+    let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
+    let rays: Vec<Ray> = pixels.map(|pixel| ray_of_pixel(camera, pixel, size)).collect();
+    let hits = nearest(&surfaces.triangles, camera, size, &rays);
+    let seen: Vec<Seen> = rays.iter().zip(&hits).map(|(ray, hit)| seen(surfaces, ray, hit.as_ref())).collect();
+    let raster_depth = |(ray, hit): (&Ray, &Option<Hit>)| {
+        hit.as_ref().map_or(0.0, |hit| RASTER_DEPTH / (hit.way * ray.direction.dot(camera.forward)))
+    };
+    let layers = seen.iter().map(|seen| seen.reflected).chain(seen.iter().map(|seen| seen.shiny));
+    Ok(BTreeMap::from([
+        ("depth", hits.iter().map(|hit| hit.as_ref().map_or(f32::INFINITY, |hit| hit.way as f32)).collect()),
+        ("normal", seen.iter().flat_map(|seen| seen.normal.extend(1.0).as_vec4().to_array()).collect()),
+        ("material", layers.flat_map(|layer| layer.map(|number| number as f32)).collect()),
+        ("triangle", hits.iter().map(|hit| hit.as_ref().map_or(0.0, |hit| (hit.triangle + 1) as f32)).collect()),
+        ("raster_depth", rays.iter().zip(&hits).map(|both| raster_depth(both) as f32).collect()),
+    ]))
+}
+
+/// Where a ray meets a triangle.
+struct Hit {
+    /// m along the ray.
+    way: f64,
+    /// Index of the triangle.
+    triangle: usize,
+    /// Barycentric coordinates of its corners.
+    parts: [f64; 3],
+}
+
+/// What is seen there.
+struct Seen {
+    normal: DVec3,
+    /// Lambert reflectance, number of the Phong lobe.
+    reflected: [f64; 4],
+    /// Phong reflectance, shininess.
+    shiny: [f64; 4],
+}
+
+/// The nearest triangle on each ray.
+fn nearest(triangles: &[Triangle], camera: &Camera, size: [u32; 2], rays: &[Ray]) -> Vec<Option<Hit>> {
+    let mut hits: Vec<Option<Hit>> = rays.iter().map(|_| None).collect();
+    for (index, triangle) in triangles.iter().enumerate() {
+        let [across, down] = pixels_around(triangle, camera, size);
+        for pixel in down.flat_map(|y| across.clone().map(move |x| (y * size[0] + x) as usize)) {
+            let hit = meet(index, triangle, &rays[pixel]);
+            let is_nearer = |hit: &Hit| hits[pixel].as_ref().is_none_or(|before| hit.way < before.way);
+            if let Some(hit) = hit.filter(is_nearer) {
+                hits[pixel] = Some(hit);
+            }
+        }
+    }
+    hits
+}
+
+/// Columns and rows in which a triangle can be seen, and one more on each side; all where it reaches behind the eye.
+fn pixels_around(triangle: &Triangle, camera: &Camera, size: [u32; 2]) -> [Range<u32>; 2] {
+    let corners = triangle.corners.map(|corner| corner.position - camera.position);
+    if corners.iter().any(|corner| corner.dot(camera.forward) < 1e-6) {
+        return size.map(|size| 0..size);
+    }
+    let place = |corner: DVec3, axis: DVec3| corner.dot(axis) / axis.length_squared() / corner.dot(camera.forward);
+    let range = |axis: DVec3, size: u32| {
+        let at = corners.map(|corner| (place(corner, axis) + 1.0) / 2.0 * f64::from(size));
+        let (least, most) = (at.iter().copied().fold(f64::MAX, f64::min), at.iter().copied().fold(f64::MIN, f64::max));
+        // Casts stay within 0 and the largest number.
+        (least - 1.0).max(0.0) as u32..((most + 2.0).max(0.0) as u32).min(size)
+    };
+    [range(camera.right, size[0]), range(-camera.up, size[1])]
+}
+
+/// By the volumes that the ray spans with the edges: all of one sign inside.
+fn meet(index: usize, triangle: &Triangle, ray: &Ray) -> Option<Hit> {
+    let [a, b, c] = triangle.corners.map(|corner| corner.position - ray.origin);
+    let volume = |from: DVec3, to: DVec3| ray.direction.dot(from.cross(to));
+    let volumes = [volume(b, c), volume(c, a), volume(a, b)];
+    let inside = volumes.iter().all(|part| *part >= 0.0) || volumes.iter().all(|part| *part <= 0.0);
+    let all: f64 = volumes.iter().sum();
+    if !inside || all == 0.0 {
+        return None;
+    }
+    let parts = volumes.map(|part| part / all);
+    let way = (parts[0] * a + parts[1] * b + parts[2] * c).dot(ray.direction);
+    (way > 0.0).then_some(Hit { way, triangle: index, parts })
+}
+
+fn seen(surfaces: &Surfaces, ray: &Ray, hit: Option<&Hit>) -> Seen {
+    let Some(hit) = hit else {
+        return Seen { normal: DVec3::ZERO, reflected: [0.0; 4], shiny: [0.0, 0.0, 0.0, 1.0] };
+    };
+    let triangle = &surfaces.triangles[hit.triangle];
+    let [a, b, c] = triangle.corners;
+    let face = (b.position - a.position).cross(c.position - a.position);
+    let [part_a, part_b, part_c] = hit.parts;
+    let normal = (part_a * a.normal + part_b * b.normal + part_c * c.normal).normalize();
+    // The side that the eye sees is that of the triangle, and not that of the normals at its corners.
+    let side = if (face.dot(ray.direction) > 0.0) == (face.dot(normal) > 0.0) { -1.0 } else { 1.0 };
+    let uv = part_a * a.uv + part_b * b.uv + part_c * c.uv;
+    let material = &surfaces.materials[triangle.material];
+    let texture = material.texture.map_or(DVec3::ONE, |texture| color_at(&surfaces.textures[texture], uv));
+    let [r, g, b] = (material.diffuse * texture).to_array();
+    let [sr, sg, sb] = material.specular.to_array();
+    Seen {
+        normal: side * normal,
+        reflected: [r, g, b, f64::from(material.lobe)],
+        shiny: [sr, sg, sb, material.shininess],
+    }
+}
+
+/// Linear between the centres of the four nearest texels, of linear light.
+fn color_at(texture: &Texture, uv: DVec2) -> DVec3 {
+    let at = uv * DVec2::new(f64::from(texture.width), f64::from(texture.height)) - 0.5;
+    let corner = at.floor();
+    let part = at - corner;
+    let texel = |right: f64, down: f64| {
+        let x = wrapped(corner.x + right, texture.width, texture.wrap[0]);
+        let y = wrapped(corner.y + down, texture.height, texture.wrap[1]);
+        let texel = texture.texels[(y * texture.width + x) as usize];
+        DVec3::from_array(texel.map(|code| linear_from_srgb(f64::from(code) / 255.0)))
+    };
+    let top = texel(0.0, 0.0).lerp(texel(1.0, 0.0), part.x);
+    let bottom = texel(0.0, 1.0).lerp(texel(1.0, 1.0), part.x);
+    top.lerp(bottom, part.y)
+}
+
+/// The texel along an axis that a place outside of the picture reads.
+fn wrapped(at: f64, size: u32, wrap: Wrap) -> u32 {
+    let size_there = f64::from(size);
+    let inside = match wrap {
+        Wrap::Repeat => at.rem_euclid(size_there),
+        Wrap::Clamp => at.clamp(0.0, size_there - 1.0),
+        // There and back again.
+        Wrap::Mirror => {
+            let along = at.rem_euclid(2.0 * size_there);
+            if along < size_there { along } else { 2.0 * size_there - 1.0 - along }
+        }
+    };
+    inside as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wrapped_texels() {
+        let read = |wrap| (-4..8).map(|at| wrapped(f64::from(at), 3, wrap)).collect::<Vec<_>>();
+        assert_eq!(read(Wrap::Repeat), [2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1]);
+        assert_eq!(read(Wrap::Clamp), [0, 0, 0, 0, 0, 1, 2, 2, 2, 2, 2, 2]);
+        assert_eq!(read(Wrap::Mirror), [2, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0, 1]);
+    }
+}

@@ -1,0 +1,55 @@
+//! The airlight of each pixel, looked up in the grid, in double precision: twin of `airlight.wgsl`.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+use tyndall_plugin::{PortData, ReferenceInput};
+use tyndall_shaders::medium::opacity;
+use tyndall_shaders::scene::Medium;
+
+use crate::grid::{Grid, froxel};
+
+/// The port of `froxel.airlight`.
+pub(crate) fn reference(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String> {
+    let (accumulated, medium) = (input.input("accumulated")?, &input.scene()?.medium);
+    let grid = Grid::read(input.input("grid")?, accumulated)?;
+    let (depth, size) = (input.inputs.get("depth"), input.size("radiance")?);
+    let mut radiance = Vec::with_capacity((4 * size[0] * size[1]) as usize);
+    for y in 0..size[1] {
+        for x in 0..size[0] {
+            let at = (y * size[0] + x) as usize;
+            let way = depth.map_or(f64::INFINITY, |depth| f64::from(depth.data[at * depth.channels as usize]));
+            let pixel = pixel(accumulated, medium, &grid, ([x, y], size), way.min(grid.far));
+            radiance.extend(pixel.extend(1.0).as_vec4().to_array());
+        }
+    }
+    Ok(BTreeMap::from([("radiance", radiance)]))
+}
+
+/// Linear between the centres of the four nearest columns.
+fn pixel(accumulated: &PortData, medium: &Medium, grid: &Grid, at: ([u32; 2], [u32; 2]), way: f64) -> DVec3 {
+    let columns = [accumulated.width, accumulated.height];
+    let place: [f64; 2] = std::array::from_fn(|axis| {
+        (f64::from(at.0[axis]) + 0.5) / f64::from(at.1[axis]) * f64::from(columns[axis]) - 0.5
+    });
+    let [left, top] = place.map(f64::floor);
+    let (right, down) = (place[0] - left, place[1] - top);
+    let corners = [(0, 0, (1.0 - right) * (1.0 - down)), (1, 0, right * (1.0 - down)), (0, 1, (1.0 - right) * down)];
+    let weighted = corners
+        .into_iter()
+        .chain([(1, 1, right * down)])
+        .map(|(x, y, weight)| weight * in_column(accumulated, medium, grid, [left as i64 + x, top as i64 + y], way));
+    weighted.sum()
+}
+
+/// What reaches the eye of a column up to a distance: light that is scattered evenly within the slice there.
+fn in_column(accumulated: &PortData, medium: &Medium, grid: &Grid, column: [i64; 2], way: f64) -> DVec3 {
+    let slice = grid.slice(way);
+    let (start, end) = (grid.border(slice), grid.border(slice + 1));
+    let before = if slice == 0 { DVec3::ZERO } else { froxel(accumulated, column, slice - 1) };
+    let with_slice = froxel(accumulated, column, slice);
+    let (part, all) = (opacity(medium, way - start), opacity(medium, end - start));
+    // Without extinction nothing is scattered, so any share will do.
+    let share = |channel: usize| if all[channel] == 0.0 { 0.0 } else { part[channel] / all[channel] };
+    before + (with_slice - before) * DVec3::from_array(std::array::from_fn(share))
+}
