@@ -6,6 +6,7 @@ mod accuracy;
 mod aerial;
 mod assets;
 mod bench;
+mod biri;
 mod check;
 mod compare;
 mod contributing;

@@ -3,7 +3,7 @@
 use glam::{Quat, Vec2, Vec3};
 use serde_json::{Map, Value, json};
 
-/// Triangles with normals and texture coordinates.
+/// Triangles with normals and, if any, texture coordinates.
 #[derive(Clone, Debug, Default)]
 pub struct Shape {
     pub positions: Vec<Vec3>,
@@ -61,8 +61,11 @@ impl Glb {
         for (shape, material) in parts {
             let positions = self.triples(&shape.positions);
             let normals = self.triples(&shape.normals);
-            let uvs: Vec<&[f32]> = shape.uvs.iter().map(|v| AsRef::<[f32; 2]>::as_ref(v).as_slice()).collect();
-            let uvs = self.vectors("VEC2", &uvs);
+            let mut attributes = json!({ "POSITION": positions, "NORMAL": normals });
+            if !shape.uvs.is_empty() {
+                let uvs: Vec<&[f32]> = shape.uvs.iter().map(|v| AsRef::<[f32; 2]>::as_ref(v).as_slice()).collect();
+                attributes["TEXCOORD_0"] = json!(self.vectors("VEC2", &uvs));
+            }
             let bytes: Vec<u8> = shape.indices.iter().flat_map(|&i| (i as u16).to_le_bytes()).collect();
             let view = self.view(&bytes);
             let count = shape.indices.len();
@@ -70,7 +73,6 @@ impl Glb {
                 "accessors",
                 json!({ "bufferView": view, "componentType": 5123, "count": count, "type": "SCALAR" }),
             );
-            let attributes = json!({ "POSITION": positions, "NORMAL": normals, "TEXCOORD_0": uvs });
             primitives.push(json!({ "attributes": attributes, "indices": indices, "material": material }));
         }
         self.add("meshes", json!({ "name": name, "primitives": primitives }))
