@@ -14,9 +14,10 @@ struct Demo {
 /// Scenes of `graphs/scenes/` with lamps in fog.
 const FOG: &[&str] = &["pavilion", "primitives"];
 
-const DEMOS: [Demo; 3] = [
+const DEMOS: [Demo; 4] = [
     Demo { graph: "airlight", scenes: FOG, outputs: &[("image", "png"), ("airlight", "exr")] },
     Demo { graph: "fog", scenes: FOG, outputs: &[("image", "png"), ("radiance", "exr")] },
+    Demo { graph: "volumetric-shadows", scenes: &["shadows/amphora"], outputs: &[("image", "png"), ("radiance", "exr")] },
     Demo { graph: "aerial-perspective", scenes: &["terrain"], outputs: &[("image", "png"), ("radiance", "exr")] },
 ];
 
@@ -45,8 +46,9 @@ fn render(workspace: &Workspace, demo: &Demo, scene: &str) -> Result<Vec<String>
     command.args(["render", &format!("graphs/{}.graph.ron", demo.graph)]);
     command.args(["--scene", &format!("graphs/scenes/{scene}.scene.ron")]);
     let mut files = Vec::new();
+    let name = scene.rsplit('/').next().unwrap_or(scene);
     for (output, suffix) in demo.outputs {
-        let file = format!("out/{}.{scene}.{output}.{suffix}", demo.graph);
+        let file = format!("out/{}.{name}.{output}.{suffix}", demo.graph);
         command.args(["--output", &format!("{output}={file}")]);
         files.push(file);
     }
