@@ -17,7 +17,11 @@ const FOG: &[&str] = &["pavilion", "primitives"];
 const DEMOS: [Demo; 4] = [
     Demo { graph: "airlight", scenes: FOG, outputs: &[("image", "png"), ("airlight", "exr")] },
     Demo { graph: "fog", scenes: FOG, outputs: &[("image", "png"), ("radiance", "exr")] },
-    Demo { graph: "volumetric-shadows", scenes: &["shadows/amphora"], outputs: &[("image", "png"), ("radiance", "exr")] },
+    Demo {
+        graph: "volumetric-shadows",
+        scenes: &["shadows/amphora"],
+        outputs: &[("image", "png"), ("radiance", "exr")],
+    },
     Demo { graph: "aerial-perspective", scenes: &["terrain"], outputs: &[("image", "png"), ("radiance", "exr")] },
 ];
 
