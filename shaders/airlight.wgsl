@@ -257,6 +257,19 @@ fn airlight(cursor: Cursor, light: Light, medium: Medium, phase: Phase, ray: Ray
 
 // The same of a part of the ray, from x to y metres.
 fn airlight_between(cursor: Cursor, light: Light, medium: Medium, phase: Phase, ray: Ray, part: vec2<f32>, nodes: u32) -> PieceOfAirlight {
+    let found = piece_at(cursor, light, medium, phase, ray, part);
+    return airlight_of_piece(found, piece_airlight(found.piece, nodes), light, medium, phase, ray, part);
+}
+
+// A piece where a cursor stands, and where it stands behind that.
+struct PieceAt {
+    piece: Piece,
+    interval: Interval,
+    lobe: u32,
+    next: Cursor,
+}
+
+fn piece_at(cursor: Cursor, light: Light, medium: Medium, phase: Phase, ray: Ray, part: vec2<f32>) -> PieceAt {
     let lobe = lobe_of(phase, cursor.lobe);
     let beside = light_beside_ray(light, ray);
     let depth_of_v = max(least_extinction(medium) * beside.h, 1e-30);
@@ -275,14 +288,18 @@ fn airlight_between(cursor: Cursor, light: Light, medium: Medium, phase: Phase, 
     } else {
         piece = piece_of(lobe, light, spot, beside, medium, depth_of_v, chunk.interval);
     }
-    let scattered = medium.scattering * light.intensity * piece_airlight(piece, nodes);
-    let radiance = select(scattered, directional_airlight(light, lobe, medium, ray, part), light.kind == DIRECTIONAL);
-
     let more_lobes = cursor.lobe + 1u < phase.lobe_count;
     let next_lobe = select(select(0u, cursor.lobe + 1u, more_lobes), cursor.lobe, chunk.more);
     let next_light = cursor.light + select(1u, 0u, chunk.more || more_lobes);
     let next_start = select(0.0, chunk.interval.start + chunk.interval.width, chunk.more);
-    return PieceOfAirlight(radiance, Cursor(next_light, next_lobe, next_start));
+    return PieceAt(piece, chunk.interval, cursor.lobe, Cursor(next_light, next_lobe, next_start));
+}
+
+// What `piece_airlight` gives of it, as radiance; a directional light needs none of that.
+fn airlight_of_piece(found: PieceAt, sum: vec3<f32>, light: Light, medium: Medium, phase: Phase, ray: Ray, part: vec2<f32>) -> PieceOfAirlight {
+    let scattered = medium.scattering * light.intensity * sum;
+    let directional = directional_airlight(light, lobe_of(phase, found.lobe), medium, ray, part);
+    return PieceOfAirlight(select(scattered, directional, light.kind == DIRECTIONAL), found.next);
 }
 
 // One piece of the lit part of a ray.

@@ -16,8 +16,10 @@
 // behind it the depth is another. Which side a vertex is on is the same for all edges that share it, so that outlines
 // stay closed whatever is rounded; and whether such a point is ahead is decided as the depth at the eye was.
 //
-// Nothing is stored: the few crossings nearest behind where a walk stands are sorted as they are found, and a walk begins
-// anew where there are more. So there is no limit to what a ray can cross.
+// A walk looks at the crossings of its slice one after another, in the order in which the light sees them. The order along
+// the ray is nearly the same: the few that are ahead of the walk are kept sorted, and it goes on to the first of them as
+// soon as nothing that follows in the slice can come before that. Where there are more than there is room for, the walk
+// begins anew at what was lost. So there is no limit to what a ray can cross.
 
 #import scene
 #import ray
@@ -60,17 +62,6 @@ fn shadow_ray(light: ShadowLight, ray: Ray, way: f32) -> ShadowRay {
     return ShadowRay(toward, sine, dot(ray.direction, light.axis), light.nearness, min(way, BEYOND), first, end);
 }
 
-// How far a walk along a ray has come.
-struct ShadowWalk {
-    x: f32,                     // m; below 0 before it starts
-    depth: i32,
-    crossing: u32,              // all before it are behind
-}
-
-fn start_of_walk(light: ShadowLight, ray: ShadowRay) -> ShadowWalk {
-    return ShadowWalk(-1.0, light.depth_at_eye, ray.first);
-}
-
 // Where the ray passes behind an edge, m, and by how much the depth grows there; BEYOND and 0 where it does not.
 struct Crossing {
     x: f32,
@@ -99,52 +90,78 @@ fn is_beyond(ratio: f32, ray: ShadowRay, x: f32) -> bool {
     return x * (ray.sine * ratio - ray.cosine * ray.nearness) <= 1.0;
 }
 
-// The nearest crossings ahead, in order.
+// Crossings ahead, in order, each with its number; BEYOND where there is none.
 struct Crossings {
     x: vec4<f32>,
     steps: vec4<i32>,
+    numbers: vec4<u32>,
+}
+
+fn no_crossings() -> Crossings {
+    return Crossings(vec4<f32>(BEYOND), vec4<i32>(0), vec4<u32>(0u));
 }
 
 // With one more: in its place, or a part of one at the same x.
-fn with_crossing(crossings: Crossings, more: Crossing) -> Crossings {
+fn with_crossing(crossings: Crossings, more: Crossing, number: u32) -> Crossings {
     let x = crossings.x;
-    let steps = crossings.steps;
     let same = vec4<f32>(more.x) == x;
     let before = vec4<f32>(more.x) < x;
     let known = any(same);
     let before_last = vec4<bool>(false, before.x, before.y, before.z);
+    let steps = crossings.steps;
+    let numbers = crossings.numbers;
     let inserted_x = select(x, select(vec4<f32>(more.x), vec4<f32>(more.x, x.xyz), before_last), before);
-    let inserted = select(steps, select(vec4<i32>(more.step), vec4<i32>(more.step, steps.xyz), before_last), before);
+    let inserted_steps = select(steps, select(vec4<i32>(more.step), vec4<i32>(more.step, steps.xyz), before_last), before);
+    let inserted_numbers = select(numbers, select(vec4<u32>(number), vec4<u32>(number, numbers.xyz), before_last), before);
     let summed = steps + select(vec4<i32>(0), vec4<i32>(more.step), same);
-    return Crossings(select(inserted_x, x, known), select(inserted, summed, known));
+    return Crossings(select(inserted_x, x, known), select(inserted_steps, summed, known), select(inserted_numbers, numbers, known));
 }
 
-// The nearest crossings behind where the walk stands.
-fn next_crossings(ray: ShadowRay, walk: ShadowWalk) -> Crossings {
-    var found = Crossings(vec4<f32>(BEYOND), vec4<i32>(0));
-    var i = walk.crossing;
-    loop {
-        let crossing = shadow_crossings.items[min(i, max(ray.end, 1u) - 1u)];
-        let here = crossing_of(shadow_edges.items[crossing.edge], ray);
-        let done = i >= ray.end || is_beyond(crossing.nearest, ray, min(found.x.w, ray.way));
-        let counts = !done && here.x > walk.x && here.x < ray.way;
-        found = with_crossing(found, Crossing(select(BEYOND, here.x, counts), select(0, here.step, counts)));
-        i++;
-        if done { break; }
-    }
-    return found;
+// Without the first.
+fn without_first(crossings: Crossings) -> Crossings {
+    return Crossings(vec4<f32>(crossings.x.yzw, BEYOND), vec4<i32>(crossings.steps.yzw, 0), vec4<u32>(crossings.numbers.yzw, 0u));
 }
 
-// The first crossing of the slice that is not known to be behind x.
-fn crossing_behind(ray: ShadowRay, first: u32, x: f32) -> u32 {
-    var i = first;
-    loop {
-        let crossing = shadow_crossings.items[min(i, max(ray.end, 1u) - 1u)];
-        let passed = i < ray.end && !is_beyond(crossing.farthest, ray, 0.9999 * x);
-        i += select(0u, 1u, passed);
-        if !passed { break; }
-    }
-    return i;
+// How far a walk along a ray has come.
+struct ShadowWalk {
+    x: f32,                     // m; below 0 before it starts
+    depth: i32,
+    next: u32,                  // crossing of the slice to look at
+    ahead: Crossings,           // of those before it that are not behind x
+    lost: f32,                  // m; from here on there was no room for all; NOTHING_LOST
+    first_lost: u32,            // the first of them, or one before it
+    counted: f32,               // m; what is up to here was counted before the walk began anew
+}
+
+// Farther than BEYOND.
+const NOTHING_LOST: f32 = 2e18;
+
+fn start_of_walk(light: ShadowLight, ray: ShadowRay) -> ShadowWalk {
+    return ShadowWalk(-1.0, light.depth_at_eye, ray.first, no_crossings(), NOTHING_LOST, ray.end, -1.0);
+}
+
+// A crossing is looked at: from now on it is ahead, or lost.
+fn look_at(crossing: Crossing, ray: ShadowRay, walk: ShadowWalk) -> ShadowWalk {
+    // bounds are not that exact, but if one is found too late it counts where the walk stands
+    let x = max(crossing.x, walk.x);
+    let is_ahead = walk.next < ray.end && crossing.x > walk.counted && x < ray.way;
+    let keeps = is_ahead && x < walk.lost;
+    let last = walk.ahead.x.w;
+    let no_room = keeps && last < BEYOND && all(walk.ahead.x != vec4<f32>(x));
+    let loses_last = no_room && x < last;
+    let loses_this = is_ahead && !keeps || no_room && !loses_last;
+    let lost_number = select(select(ray.end, walk.next, loses_this), walk.ahead.numbers.w, loses_last);
+    var looked = walk;
+    looked.ahead = with_crossing(walk.ahead, Crossing(select(BEYOND, x, keeps), select(0, crossing.step, keeps)), walk.next);
+    looked.lost = select(walk.lost, max(x, last), no_room);
+    looked.first_lost = min(walk.first_lost, lost_number);
+    looked.next = walk.next + 1u;
+    return looked;
+}
+
+// From where it stands, at the first crossing that was lost.
+fn begun_anew(ray: ShadowRay, walk: ShadowWalk) -> ShadowWalk {
+    return ShadowWalk(walk.x, walk.depth, walk.first_lost, no_crossings(), NOTHING_LOST, ray.end, walk.x);
 }
 
 // A part of the ray, from x to y metres, that the light reaches; and where the walk stands behind it.
@@ -154,18 +171,17 @@ struct LitPart {
     done: bool,
 }
 
-// The walk goes on to a crossing, or to the ray's end. Where a part ends it stops.
-fn step_to(lit: LitPart, crossing_x: f32, step: i32, way: f32) -> LitPart {
-    let x = min(crossing_x, way);
-    let depth = lit.walk.depth + step;
+// The walk goes on to the first crossing ahead, or to the ray's end. Where a part ends it stops.
+fn step_to_next(lit: LitPart, way: f32) -> LitPart {
+    let x = min(lit.walk.ahead.x.x, way);
+    let depth = lit.walk.depth + lit.walk.ahead.steps.x;
     let is_lit = lit.walk.depth <= 0;
     let at_end = x >= way;
     let start = select(lit.part.x, x, !is_lit && (depth <= 0 || at_end));
-    let done = at_end || (is_lit && depth > 0);
-    var next = LitPart(vec2<f32>(start, x), ShadowWalk(x, depth, lit.walk.crossing), done);
-    if lit.done {
-        next = lit;
-    }
+    var next = LitPart(vec2<f32>(start, x), lit.walk, at_end || (is_lit && depth > 0));
+    next.walk.x = x;
+    next.walk.depth = depth;
+    next.walk.ahead = without_first(lit.walk.ahead);
     return next;
 }
 
@@ -174,12 +190,18 @@ fn step_to(lit: LitPart, crossing_x: f32, step: i32, way: f32) -> LitPart {
 fn next_lit_part(ray: ShadowRay, walk: ShadowWalk) -> LitPart {
     var lit = LitPart(vec2<f32>(max(walk.x, 0.0)), walk, false);
     loop {
-        let found = next_crossings(ray, lit.walk);
-        lit = step_to(lit, found.x.x, found.steps.x, ray.way);
-        lit = step_to(lit, found.x.y, found.steps.y, ray.way);
-        lit = step_to(lit, found.x.z, found.steps.z, ray.way);
-        lit = step_to(lit, found.x.w, found.steps.w, ray.way);
-        lit.walk.crossing = crossing_behind(ray, lit.walk.crossing, lit.walk.x);
+        let crossing = shadow_crossings.items[min(lit.walk.next, max(ray.end, 1u) - 1u)];
+        let here = crossing_of(shadow_edges.items[crossing.edge], ray);
+        let x = min(lit.walk.ahead.x.x, ray.way);
+        let is_next_lost = lit.walk.lost <= x;
+        let is_next_known = lit.walk.next >= ray.end || is_beyond(crossing.nearest, ray, x);
+        if is_next_known && !is_next_lost {
+            lit = step_to_next(lit, ray.way);
+        }
+        lit.walk = look_at(here, ray, lit.walk);
+        if is_next_lost {
+            lit.walk = begun_anew(ray, lit.walk);
+        }
         if lit.done { break; }
     }
     return lit;

@@ -4,6 +4,7 @@
 #import airlight
 #import lights
 #import shadows
+#import "few_nodes.wgsl"
 
 override nodes: u32 = 12;
 
@@ -33,7 +34,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if whole {
             found = next_lit_part(shadow, found.walk);
         }
-        let piece = airlight_between(cursor, lights.items[light], medium, phase, ray, found.part, nodes);
+        let piece = airlight_of_part(cursor, lights.items[light], medium, phase, ray, found.part, nodes);
         sum += piece.radiance;
         cursor = piece.next;
         whole = cursor.light > light;

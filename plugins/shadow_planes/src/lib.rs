@@ -6,6 +6,6 @@ use tyndall_plugin::{Plugin, folder};
 
 /// The plugin.
 pub fn plugin() -> Plugin {
-    Plugin::new("shadow_planes", folder!("shadow_planes": "plugin.ron", "exact.wgsl", "biri.wgsl"))
+    Plugin::new("shadow_planes", folder!("shadow_planes": "plugin.ron", "exact.wgsl", "few_nodes.wgsl", "biri.wgsl"))
         .reference("shadow_planes.exact", reference::exact)
 }
