@@ -260,7 +260,6 @@ struct ShadowSlices {
 // An edge in a slice, in the order of `nearest`, from the axis outward.
 struct ShadowCrossing {
     nearest: f32,               // n/r of its points in the slice at most, 1/m
-    farthest: f32,              // n/r at least, of this and of all before it in the slice, 1/m
     edge: u32,                  // among the edges
 }
 

@@ -293,8 +293,6 @@ pub struct ShadowLight {
 pub struct ShadowCrossing {
     /// n/r at most.
     pub nearest: f32,
-    /// n/r at least, of this and all before it in its slice.
-    pub farthest: f32,
     /// Among the shadow edges.
     pub edge: u32,
 }

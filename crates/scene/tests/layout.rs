@@ -52,7 +52,7 @@ fn structs_match_the_shader() {
     same!(structs, Texture { offset, width, height, wrap });
     same!(structs, ShadowLight { across, nearness, upward, depth_at_eye, axis, first_slice, slices, pad0, pad1, pad2 });
     same!(structs, OccluderNode { low, first, high, triangles, skip, pad0, pad1, pad2 });
-    same!(structs, ShadowCrossing { nearest, farthest, edge });
+    same!(structs, ShadowCrossing { nearest, edge });
     same!(structs, ShadowEdge { a, step, b, pad });
     same!(structs, HeightFog { base_height, falloff, pad0, pad1 });
     for (name, expected) in [("Background", size_of::<Background>()), ("Ambient", size_of::<Ambient>())] {

@@ -9,6 +9,7 @@
 
 mod silhouette;
 mod slices;
+mod spans;
 
 use glam::DVec3;
 

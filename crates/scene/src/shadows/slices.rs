@@ -9,9 +9,13 @@
 //! direction (x, y, n) with n = 1 + κz. Within a half-plane, with the distance r from the axis, `n/r` falls along every
 //! ray, whatever its direction: it says what is crossed first.
 
-use glam::{DMat3, DVec2, DVec3};
+use std::num::NonZero;
+use std::ops::Range;
+
+use glam::{DMat3, DVec3};
 
 use super::silhouette::{SilhouetteEdge, Source};
+use super::spans::{Borders, Span, angles};
 use crate::layout::{ShadowCrossing, ShadowEdge, ShadowLight};
 
 /// Where light and eye stand to each other.
@@ -82,7 +86,8 @@ impl LightFrame {
         }
     }
 
-    fn distance_from_light(&self, place: DVec3) -> f64 {
+    /// n of a point in this frame: as a part of the distance from the light to the eye.
+    pub(crate) fn distance_from_light(&self, place: DVec3) -> f64 {
         1.0 + self.nearness * place.z
     }
 }
@@ -107,8 +112,10 @@ impl Turning {
 
 /// An edge that runs counter-clockwise about the axis.
 pub(crate) struct PlacedEdge {
-    a: DVec3,
-    b: DVec3,
+    /// m.
+    pub a: DVec3,
+    /// m.
+    pub b: DVec3,
     /// By how many triangles there are more between the light and a ray that crosses the edge from the axis outward.
     step: i32,
 }
@@ -129,87 +136,17 @@ impl PlacedEdge {
         let floats = crate::encode::floats;
         ShadowEdge { a: floats(self.a), step: self.step, b: floats(self.b), ..Default::default() }
     }
-
-    /// The range of angles, from 0 to 4 and beyond where it passes the end; `None` where it may be any.
-    fn angles(&self) -> Option<(f64, f64)> {
-        let (a, b) = (self.a.truncate(), self.b.truncate());
-        let (start, end) = (angle(a), angle(b));
-        let round = a.dot(b) <= 0.0 && a.perp_dot(b) <= 1e-6 * a.length() * b.length();
-        if round || !start.is_finite() || !end.is_finite() {
-            return None;
-        }
-        match end < start {
-            true if start - end < ANGLE_SLACK => Some((end, start)),
-            true => Some((start, end + 4.0)),
-            false => Some((start, end)),
-        }
-    }
-
-    /// Bounds of n/r within a range of angles, of which the edge spans a part at least.
-    fn bounds(&self, frame: &LightFrame, (start, end): (f64, f64), within: (f64, f64)) -> (f64, f64) {
-        let (a, b) = (self.a.truncate(), self.b.truncate());
-        let (na, nb) = (frame.distance_from_light(self.a), frame.distance_from_light(self.b));
-        let turn = a.perp_dot(b);
-        if turn <= 1e-9 * a.length() * b.length() {
-            let (first, last) = (na / a.length(), nb / b.length());
-            let slack = 1e-5 * (first.abs() + last.abs());
-            return (first.max(last) + slack, first.min(last) - slack);
-        }
-        // n/r in a direction about the axis is the dot product with this, over `turn`.
-        let gradient = DVec2::new(b.y * na - a.y * nb, a.x * nb - b.x * na);
-        let at = |angle: f64| {
-            let direction = direction(angle);
-            let value = match angle {
-                _ if angle <= start => na / a.length(),
-                _ if angle >= end => nb / b.length(),
-                _ => direction.dot(gradient) / turn,
-            };
-            (direction, value)
-        };
-        let (first, low) = at(within.0.clamp(start, end));
-        let (second, high) = at(within.1.clamp(start, end));
-        // Between the two it is a part of a sine, which bulges by 1 - cos of half the angle, at most.
-        let bulge = gradient.length() / turn * (first - second).length_squared() / 6.0;
-        let slack = bulge + 1e-5 * (low.abs() + high.abs());
-        (low.max(high) + slack, low.min(high) - slack)
-    }
 }
-
-/// What stands for an angle: 0 at +x, 1 at +y, 2 at -x, 3 at -y, monotonous between. `angle_of` of `shadows.wgsl`.
-fn angle(v: DVec2) -> f64 {
-    let part = v.y / (v.x.abs() + v.y.abs());
-    if v.x < 0.0 {
-        2.0 - part
-    } else if v.y < 0.0 {
-        4.0 + part
-    } else {
-        part
-    }
-}
-
-/// The unit vector of an angle.
-fn direction(angle: f64) -> DVec2 {
-    let angle = angle.rem_euclid(4.0);
-    let x = if angle < 2.0 { 1.0 - angle } else { angle - 3.0 };
-    let y = if angle < 1.0 {
-        angle
-    } else if angle < 3.0 {
-        2.0 - angle
-    } else {
-        angle - 4.0
-    };
-    DVec2::new(x, y).normalize()
-}
-
-/// More of an angle than single precision can be wrong about.
-const ANGLE_SLACK: f64 = 4e-6;
 
 /// Slices of a light with few edges, and of one with many: more than there are pixels along the rim of a picture do not
 /// help.
 const SLICES: (usize, usize) = (16, 4096);
 
-/// Crossings of all slices of a light at most, about 50 MB: above that slices are wider.
+/// Crossings of all slices of a light at most, 32 MiB: above that slices are wider.
 const CROSSINGS_MAX: usize = 1 << 22;
+
+/// Fewer crossings are not worth a thread.
+const CROSSINGS_OF_THREAD: usize = 1 << 14;
 
 /// How many slices edges are sorted into.
 pub(crate) fn slice_count(edges: &[PlacedEdge]) -> usize {
@@ -217,7 +154,7 @@ pub(crate) fn slice_count(edges: &[PlacedEdge]) -> usize {
         return 0;
     }
     let mut slices = (4 * edges.len()).next_power_of_two().clamp(SLICES.0, SLICES.1);
-    let share = |edge: &PlacedEdge| edge.angles().map_or(1.0, |(start, end)| (end - start) / 4.0);
+    let share = |edge: &PlacedEdge| angles(edge).map_or(1.0, |(start, end)| (end - start) / 4.0);
     let spanned: f64 = edges.iter().map(share).sum();
     while slices > SLICES.0 && spanned * slices as f64 + 2.0 * edges.len() as f64 > CROSSINGS_MAX as f64 {
         slices /= 2;
@@ -235,36 +172,92 @@ pub(crate) fn sort(
     starts: &mut Vec<u32>,
     crossings: &mut Vec<ShadowCrossing>,
 ) {
-    let mut spans: Vec<(u32, ShadowCrossing)> = Vec::with_capacity(4 * edges.len());
-    for (edge, number) in edges.iter().zip(first_edge..) {
-        let Some(angles) = edge.angles() else {
-            let anywhere = ShadowCrossing { nearest: f32::MAX, farthest: f32::MIN, edge: number };
-            spans.extend((0..slices as u32).map(|slice| (slice, anywhere)));
-            continue;
-        };
-        let width = 4.0 / slices as f64;
-        let [first, last] =
-            [angles.0 - ANGLE_SLACK, angles.1 + ANGLE_SLACK].map(|angle| (angle / width).floor() as i64);
-        for slice in first..=last.min(first + slices as i64 - 1) {
-            let within = (slice as f64 * width, (slice + 1) as f64 * width);
-            let (nearest, farthest) = edge.bounds(frame, angles, within);
-            let crossing = ShadowCrossing { nearest: nearest as f32, farthest: farthest as f32, edge: number };
-            spans.push((slice.rem_euclid(slices as i64) as u32, crossing));
-        }
+    let borders = Borders::new(slices);
+    let spans: Vec<Span> =
+        edges.iter().zip(first_edge..).map(|(edge, number)| Span::of(edge, number, frame, &borders)).collect();
+    let mut ends = vec![0; slices];
+    for slice in spans.iter().flat_map(|span| span.slices(&borders)) {
+        ends[slice] += 1;
     }
-    spans.sort_unstable_by(|(slice, a), (other, b)| {
-        slice.cmp(other).then(b.nearest.total_cmp(&a.nearest)).then(a.edge.cmp(&b.edge))
+    let mut end = 0;
+    for slice in &mut ends {
+        end += *slice;
+        *slice = end;
+    }
+    let first = crossings.len();
+    starts.extend([0].iter().chain(&ends).map(|end| (first + end) as u32));
+    crossings.resize(first + end, ShadowCrossing::default());
+    let threads = std::thread::available_parallelism().map_or(1, NonZero::get).min(1 + end / CROSSINGS_OF_THREAD);
+    std::thread::scope(|scope| {
+        let mut rest = &mut crossings[first..];
+        let mut done = 0;
+        for thread in 1..=threads {
+            let until = ends.partition_point(|slice_end| *slice_end <= end * thread / threads).max(done);
+            let before = if done == 0 { 0 } else { ends[done - 1] };
+            let count = if until == done { 0 } else { ends[until - 1] - before };
+            let (part, others) = rest.split_at_mut(count);
+            rest = others;
+            let (ends, spans, borders, range) = (&ends, &spans, &borders, done..until);
+            let fill = move || fill(spans, borders, range, ends, part);
+            done = until;
+            // The last part is for this thread.
+            if thread == threads {
+                fill();
+            } else {
+                scope.spawn(fill);
+            }
+        }
     });
-    let mut spans = spans.into_iter().peekable();
-    for slice in 0..slices as u32 {
-        starts.push(crossings.len() as u32);
-        let mut farthest = f32::MAX;
-        while let Some((_, mut crossing)) = spans.next_if(|span| span.0 == slice) {
-            // Of all up to here, so that a walk knows what it can leave behind.
-            farthest = farthest.min(crossing.farthest);
-            crossing.farthest = farthest;
-            crossings.push(crossing);
+}
+
+/// Fills the crossings of a range of slices, sorted by how near they are. `ends` are of all slices; `crossings` begin with
+/// the first of the range.
+fn fill(spans: &[Span], borders: &Borders, range: Range<usize>, ends: &[usize], crossings: &mut [ShadowCrossing]) {
+    let start = |slice: usize| if slice == 0 { 0 } else { ends[slice - 1] };
+    let first = start(range.start);
+    let mut next: Vec<usize> = range.clone().map(|slice| start(slice) - first).collect();
+    let mut keys = vec![0; crossings.len()];
+    for span in spans {
+        for (slice, nearest) in span.crossings(borders) {
+            if range.contains(&slice) {
+                let next = &mut next[slice - range.start];
+                keys[*next] = key(nearest, span.edge);
+                *next += 1;
+            }
         }
     }
-    starts.push(crossings.len() as u32);
+    for slice in range {
+        keys[start(slice) - first..ends[slice] - first].sort_unstable();
+    }
+    for (crossing, key) in crossings.iter_mut().zip(keys) {
+        *crossing = ShadowCrossing { nearest: nearest_of(key), edge: key as u32 };
+    }
+}
+
+/// A number that is the smaller the nearer a crossing is, and the smaller its edge's number where two are equally near.
+fn key(nearest: f32, edge: u32) -> u64 {
+    // The bits of floating-point numbers, the sign apart, are in the order of the numbers.
+    let bits = nearest.to_bits();
+    let descending = if bits & SIGN == 0 { !(bits | SIGN) } else { bits };
+    u64::from(descending) << 32 | u64::from(edge)
+}
+
+fn nearest_of(key: u64) -> f32 {
+    let descending = (key >> 32) as u32;
+    f32::from_bits(if descending & SIGN == 0 { !descending & !SIGN } else { descending })
+}
+
+const SIGN: u32 = 1 << 31;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_sort_from_the_nearest_to_the_farthest() {
+        let crossings = [(f32::MAX, 2), (3.5, 0), (3.5, 7), (1e-30, 1), (0.0, 4), (-0.0, 1), (-2.0, 3), (f32::MIN, 0)];
+        let keys = crossings.map(|(nearest, edge)| key(nearest, edge));
+        assert!(keys.is_sorted());
+        assert_eq!(keys.map(|key| (nearest_of(key), key as u32)), crossings);
+    }
 }
