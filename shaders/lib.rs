@@ -37,4 +37,5 @@ pub const MODULES: &[(&str, &str)] = &[
     ("scene", include_str!("scene.wgsl")),
     ("shadows", include_str!("shadows.wgsl")),
     ("surface_table", include_str!("surface_table.wgsl")),
+    ("unfinished", include_str!("unfinished.wgsl")),
 ];

@@ -11,6 +11,9 @@
 var<storage, read> occluder_nodes: OccluderNodes;
 var<storage, read> occluder_corners: OccluderCorners;
 
+// Whether a walk ended before it was done.
+var<private> occluders_missed: bool = false;
+
 // How far away a directional light is looked for, m.
 const SUN_WAY: f32 = 1e5;
 // A triangle that a light sees at less than this angle, rad, is transparent to it, as in silhouette.rs.
@@ -135,5 +138,6 @@ fn hidden_points(light: Light, ray: Ray, x: f32, dx: f32) -> u32 {
         hidden |= points_of_leaf(node, 3u, triangles, light, ray, x, dx);
         if at >= count || hidden == 0xffffffffu { break; }
     }
+    occluders_missed = occluders_missed || (at < count && hidden != 0xffffffffu);
     return hidden;
 }

@@ -15,9 +15,13 @@
 #import cone
 #import airlight
 #import occluders
+#import unfinished
 
 // Optical depth along the ray, of the channel of least extinction, at which the march ends.
 const MARCH_DEPTH: f32 = 16.0;
+
+// Whether a march ended before it was done.
+var<private> stopped: bool = false;
 
 override steps: u32 = 256;
 override shadows: bool = false;
@@ -60,11 +64,13 @@ fn march_point(light: Light, beside: LightBesideRay, scattering: Phase, ray: Ray
     let count = select(0u, steps, light.kind == POINT);
     var sum = vec3<f32>(0.0);
     var hidden = 0u;
-    for (var i = 0u; i < count; i++) {
+    var i = 0u;
+    for (; i < count; i++) {
         hidden = hidden_steps(hidden, light, ray, i, dx);
         let point = sample_at((f32(i) + 0.5) * dx, beside, scattering);
         sum += f32(~hidden & 1u) * point.density * exp(-medium.extinction * point.path);
     }
+    stopped = stopped || i < count;
     return medium.scattering * light.intensity * sum * dx;
 }
 
@@ -75,12 +81,14 @@ fn march_spot(light: Light, beside: LightBesideRay, scattering: Phase, ray: Ray,
     let across = dot(light.direction, beside.from_light);
     var sum = vec3<f32>(0.0);
     var hidden = 0u;
-    for (var i = 0u; i < count; i++) {
+    var i = 0u;
+    for (; i < count; i++) {
         hidden = hidden_steps(hidden, light, ray, i, dx);
         let point = sample_at((f32(i) + 0.5) * dx, beside, scattering);
         let falloff = spot_falloff(light, along * point.sine + across * point.cosine);
         sum += f32(~hidden & 1u) * point.density * falloff * exp(-medium.extinction * point.path);
     }
+    stopped = stopped || i < count;
     return medium.scattering * light.intensity * sum * dx;
 }
 
@@ -91,10 +99,12 @@ fn march_directional(light: Light, scattering: Phase, ray: Ray, way: f32) -> vec
     let count = select(0u, steps, light.kind == DIRECTIONAL);
     var sum = vec3<f32>(0.0);
     var hidden = 0u;
-    for (var i = 0u; i < count; i++) {
+    var i = 0u;
+    for (; i < count; i++) {
         hidden = hidden_steps(hidden, light, ray, i, dx);
         sum += f32(~hidden & 1u) * exp(-medium.extinction * ((f32(i) + 0.5) * dx));
     }
+    stopped = stopped || i < count;
     return medium.scattering * light.intensity * phase_at(scattering, dot(half_sum, half_sum)) * sum * dx;
 }
 
@@ -122,5 +132,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     // no early return above: outside of branches software Vulkan reads the scene's data once for all threads
     if all(id.xy < size) {
         textureStore(radiance, id.xy, vec4<f32>(select(vec3<f32>(0.0), sum, medium.scattering > vec3<f32>(0.0)), 1.0));
+        if i < count || stopped || occluders_missed {
+            tell_unfinished();
+        }
     }
 }

@@ -3,6 +3,7 @@
 #import ray
 #import lights
 #import occluders
+#import unfinished
 
 // Part of the way at which it is asked: before the surface, so that it does not hide itself from what it faces.
 const BEFORE_SURFACE: f32 = 0.9999;
@@ -31,5 +32,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     if all(id.xy < size) {
         textureStore(lit, id.xy, bits);
+        if i < count || occluders_missed {
+            tell_unfinished();
+        }
     }
 }

@@ -15,6 +15,7 @@
 #import airlight
 #import lights
 #import shadows
+#import unfinished
 
 override nodes: u32 = 12;
 override stencil: bool = true;
@@ -26,6 +27,9 @@ var<storage, read> lights: Lights;
 var depth: texture_2d<f32>;
 var radiance: texture_storage_2d<rgba32float, write>;
 var lit: texture_storage_2d<rgba32float, write>;
+
+// Whether a loop over planes ended before it was done.
+var<private> stopped: bool = false;
 
 // What eight bits hold.
 const STENCIL_MAX: i32 = 255;
@@ -54,6 +58,7 @@ fn stencil_of_surface(ray: ShadowRay) -> i32 {
         i++;
         if i >= ray.end { break; }
     }
+    stopped = stopped || i < ray.end;
     return max(min(facing, STENCIL_MAX) - averted, 0);
 }
 
@@ -79,6 +84,7 @@ fn next_plane(ray: ShadowRay, last: Drawn) -> Drawn {
         i++;
         if i >= ray.end { break; }
     }
+    stopped = stopped || i < ray.end;
     let facing = step > 0;
     let passes = !stencil || last.stencil == select(0, 1, facing);
     let counted = clamp(last.stencil + select(1, -1, facing), 0, STENCIL_MAX);
@@ -140,5 +146,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if all(id.xy < size) {
         textureStore(radiance, id.xy, vec4<f32>(sum, 1.0));
         textureStore(lit, id.xy, lit_bits);
+        if light < count || stopped {
+            tell_unfinished();
+        }
     }
 }

@@ -4,6 +4,7 @@
 #import airlight
 #import lights
 #import shadows
+#import unfinished
 #import "few_nodes.wgsl"
 
 override nodes: u32 = 12;
@@ -56,5 +57,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if all(id.xy < size) {
         textureStore(radiance, id.xy, vec4<f32>(sum, 1.0));
         textureStore(lit, id.xy, lit_bits);
+        if light < count || stopped {
+            tell_unfinished();
+        }
     }
 }

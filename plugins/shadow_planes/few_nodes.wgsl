@@ -7,6 +7,9 @@
 #import airlight
 #import quadrature
 
+// Whether the loop here ended before it was done.
+var<private> stopped: bool = false;
+
 // As many nodes as a short piece needs.
 const ROUND: u32 = 4u;
 
@@ -59,6 +62,7 @@ fn piece_airlight_by_few(piece: Piece, nodes: u32, short: bool) -> vec3<f32> {
         round++;
         if round >= rounds { break; }
     }
+    stopped = stopped || round < rounds;
     return piece.weight * sum;
 }
 

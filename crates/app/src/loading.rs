@@ -2,7 +2,7 @@
 
 use tyndall_document::{Diagnostics, render_text};
 use tyndall_plugin::Registry;
-use tyndall_render::{Request, Setting};
+use tyndall_render::{Request, Running, Setting};
 
 use crate::cli::GraphArguments;
 use crate::failure::Failure;
@@ -29,7 +29,17 @@ pub(crate) fn load(arguments: &GraphArguments, registry: &Registry) -> Result<Lo
     loaded.ok_or(Failure::Mistakes(out))
 }
 
-/// The same; every mistake and every warning goes to `out`.
+/// Warns of passes whose loops the driver has ended before they were done.
+pub(crate) fn warn_of_unfinished(running: &Running<'_>) -> Result<(), Failure> {
+    let mut out = Diagnostics::default();
+    running.warn_of_unfinished(&mut out)?;
+    if !out.is_empty() {
+        terminal::error(&render_text(&out, terminal::color()));
+    }
+    Ok(())
+}
+
+/// As [`load`]; every mistake and every warning goes to `out`.
 pub(crate) fn try_load(arguments: &GraphArguments, registry: &Registry, out: &mut Diagnostics) -> Option<Loaded> {
     let setting = |text: &String| Setting { text: text.clone(), argument: format!("--set {text}") };
     let request = Request {

@@ -2,7 +2,9 @@
 
 use naga::StorageAccess;
 use tyndall_graph::descriptor::{ParamDescriptor, ParamValue};
-use tyndall_shader::{Linked, PARAMS, ParamKind, ParamSource, Resource, ResourceKind, SAMPLERS, SampleClass, counted};
+use tyndall_shader::{
+    Linked, PARAMS, ParamKind, ParamSource, Resource, ResourceKind, SAMPLERS, SampleClass, UNFINISHED, counted,
+};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -21,6 +23,8 @@ enum Feed {
     Params,
     /// One of the executor's samplers.
     Sampler(usize),
+    /// The count of threads that did not get to the end.
+    Unfinished,
 }
 
 /// The bindings of one shader within one pass.
@@ -28,6 +32,7 @@ pub(crate) struct Bindings {
     layout: wgpu::BindGroupLayout,
     feeds: Vec<(u32, Feed)>,
     params: Option<ParamBlock>,
+    unfinished: Option<wgpu::Buffer>,
     group: Option<wgpu::BindGroup>,
     generation: u64,
     label: String,
@@ -52,11 +57,14 @@ impl Bindings {
     ) -> Result<Self, GpuError> {
         let mut feeds = Vec::new();
         let mut entries = Vec::new();
-        let mut params = None;
+        let (mut params, mut unfinished) = (None, None);
         for resource in &linked.resources {
             let feed = feed(resource, pass, scene)?;
             if let (Feed::Params, ResourceKind::Uniform { size, .. }) = (feed, &resource.kind) {
                 params = Some(ParamBlock::new(gpu, pass, *size, linked, label)?);
+            }
+            if let Feed::Unfinished = feed {
+                unfinished = Some(count(gpu, label)?);
             }
             feeds.push((resource.binding, feed));
             entries.push(layout_entry(resource));
@@ -64,11 +72,16 @@ impl Bindings {
         let layout = gpu.create(label, 1, |device| {
             device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
         })?;
-        Ok(Self { layout, feeds, params, group: None, generation: u64::MAX, label: label.to_owned() })
+        Ok(Self { layout, feeds, params, unfinished, group: None, generation: u64::MAX, label: label.to_owned() })
     }
 
     pub(crate) fn layout(&self) -> &wgpu::BindGroupLayout {
         &self.layout
+    }
+
+    /// Where the shader counts threads that did not get to the end.
+    pub(crate) fn unfinished(&self) -> Option<&wgpu::Buffer> {
+        self.unfinished.as_ref()
     }
 
     /// The bind group, made anew only where a scene buffer was replaced.
@@ -105,6 +118,13 @@ impl Bindings {
                         return Err(GpuError::Pass { pass: self.label.clone(), reason });
                     }
                 },
+                Feed::Unfinished => match &self.unfinished {
+                    Some(buffer) => buffer.as_entire_binding(),
+                    None => {
+                        let reason = format!("its `{UNFINISHED}` is no count");
+                        return Err(GpuError::Pass { pass: self.label.clone(), reason });
+                    }
+                },
                 Feed::Sampler(index) => wgpu::BindingResource::Sampler(&bound.samplers[index]),
             };
             entries.push(wgpu::BindGroupEntry { binding, resource });
@@ -135,10 +155,25 @@ fn feed(resource: &Resource, pass: PlannedView<'_>, scene: &mut SceneBuffers) ->
     if name == PARAMS {
         return Ok(Feed::Params);
     }
+    if name == UNFINISHED {
+        return Ok(Feed::Unfinished);
+    }
     if let Some(index) = SAMPLERS.iter().position(|sampler| sampler.name == name) {
         return Ok(Feed::Sampler(index));
     }
     Ok(Feed::Scene(scene.intern(name)))
+}
+
+/// A count that starts at 0.
+fn count(gpu: &Gpu, label: &str) -> Result<wgpu::Buffer, GpuError> {
+    gpu.create(label, 1, |device| {
+        device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size: 16,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        })
+    })
 }
 
 fn layout_entry(resource: &Resource) -> wgpu::BindGroupLayoutEntry {

@@ -16,7 +16,7 @@ use crate::cache::PipelineCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::freshness::Freshness;
-use crate::readback::{PortData, read};
+use crate::readback::{PortData, read, read_bytes};
 use crate::scene::SceneBuffers;
 use crate::setup::{Program, Programs, Recorder, Setup};
 use crate::slots::{Physical, create_all, fill, fill_stated, upload};
@@ -264,6 +264,26 @@ impl Executor {
         }
         let slot = self.plan.ports[port as usize].slot as usize;
         read(&self.gpu, &name, self.plan.resource(port), &self.slots[slot])
+    }
+
+    /// Passes some of whose threads did not get to the end of their loops, because the driver ended them, and how many
+    /// threads that were in all frames so far. Waits for the GPU.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub fn unfinished(&self) -> Result<Vec<(u32, u32)>, GpuError> {
+        let mut unfinished = Vec::new();
+        for (pass, program) in positions(&self.plan).zip(&self.programs) {
+            let Some(count) = program.unfinished() else { continue };
+            let bytes = read_bytes(&self.gpu, self.plan.pass_name(pass), 4, |encoder, staging| {
+                encoder.copy_buffer_to_buffer(count, 0, staging, 0, 4);
+            })?;
+            let threads = bytes.first_chunk().map_or(0, |bytes| u32::from_le_bytes(*bytes));
+            if threads > 0 {
+                unfinished.push((pass, threads));
+            }
+        }
+        Ok(unfinished)
     }
 
     /// Puts content into a port in the place of what its pass would compute: `texels` in the port's own format, rows

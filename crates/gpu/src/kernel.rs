@@ -34,6 +34,12 @@ impl Kernel {
         let pipeline = setup.cache.compute(setup.gpu, linked, (&label, entry), bindings.layout(), &constants)?;
         Ok(Self { pipeline, bindings, workgroup, label })
     }
+
+    /// Where the shader counts threads that did not get to the end of their loops, if it does: for
+    /// [`crate::Program::unfinished`].
+    pub fn unfinished(&self) -> Option<&wgpu::Buffer> {
+        self.bindings.unfinished()
+    }
 }
 
 /// A vertex and a fragment shader with everything that they are bound to. Vertices are pulled from buffers.

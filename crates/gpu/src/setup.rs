@@ -26,6 +26,11 @@ pub trait Program {
     fn fingerprint(&self) -> u64 {
         0
     }
+
+    /// Where the pass counts threads whose loops the driver has ended, if it does.
+    fn unfinished(&self) -> Option<&wgpu::Buffer> {
+        None
+    }
 }
 
 /// Gives the program of each pass of a plan: implemented by the registry of plugins.

@@ -45,6 +45,10 @@ impl Program for Dispatch {
     fn record(&mut self, recorder: &mut Recorder<'_>) -> Result<(), GpuError> {
         recorder.dispatch(&mut self.kernel, self.threads)
     }
+
+    fn unfinished(&self) -> Option<&tyndall_gpu::wgpu::Buffer> {
+        self.kernel.unfinished()
+    }
 }
 
 /// The port that a pass runs over where its manifest names none: its first output.

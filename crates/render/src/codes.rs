@@ -10,6 +10,8 @@ pub const NOT_HOMOGENEOUS: Code = Code("not-homogeneous");
 pub const INPUT_NEEDED: Code = Code("input-needed");
 /// The scene has something that a pass does not do justice to.
 pub const LIMIT: Code = Code("limit");
+/// A driver ended loops of a pass before they were done.
+pub const UNFINISHED: Code = Code("unfinished");
 
 /// All of them.
-pub const CODES: &[Code] = &[INPUT_NEEDED, LIMIT, NO_SCENE, NOT_HOMOGENEOUS];
+pub const CODES: &[Code] = &[INPUT_NEEDED, LIMIT, NO_SCENE, NOT_HOMOGENEOUS, UNFINISHED];

@@ -28,7 +28,7 @@ mod picture;
 mod plugins;
 mod running;
 
-pub use codes::{CODES, INPUT_NEEDED, LIMIT, NO_SCENE, NOT_HOMOGENEOUS};
+pub use codes::{CODES, INPUT_NEEDED, LIMIT, NO_SCENE, NOT_HOMOGENEOUS, UNFINISHED};
 pub use error::Error;
 pub use load::{Loaded, Request, Setting, Wanted, load, plan};
 pub use picture::{image, meaning, shape};

@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
+use tyndall_document::{Diagnostic, Diagnostics};
 use tyndall_gpu::{Executor, FRAMES_PER_SECOND, FrameOptions, FrameReport, Gpu, PipelineCache, SceneBuffers, memory};
 use tyndall_graph::Plan;
 use tyndall_plugin::Registry;
 use tyndall_scene::{Encoded, Scene};
 
+use crate::codes::UNFINISHED;
 use crate::error::Error;
 
 /// Copies of a port that exist at a time while it is read back and written to a file.
@@ -52,6 +54,26 @@ impl<'a> Running<'a> {
     pub fn frame(&mut self, options: FrameOptions) -> Result<FrameReport, Error> {
         self.bring_scene_to(f64::from(options.frame) / FRAMES_PER_SECOND)?;
         Ok(self.executor.frame(options)?)
+    }
+
+    /// Warns of passes whose loops the driver has ended before they were done, in any frame so far. Waits for the GPU.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub fn warn_of_unfinished(&self, out: &mut Diagnostics) -> Result<(), Error> {
+        let plan = self.executor.plan();
+        for (pass, threads) in self.executor.unfinished()? {
+            let message = format!(
+                "pass `{}`: {} has ended its loops before they were done, in {threads} pixels: what they show is wrong",
+                plan.pass_name(pass),
+                self.executor.gpu().info.name
+            );
+            let place = plan.graph.place(plan.graph.pass(plan.passes[pass as usize].index).span);
+            let hint = "Mesa's llvmpipe ends all loops of a pixel after 65,535 rounds: fewer steps, lights or triangles \
+                        take fewer, and other drivers have no such limit";
+            out.push(Diagnostic::warning(UNFINISHED, place, message).suggest(hint));
+        }
+        Ok(())
     }
 
     fn bring_scene_to(&mut self, time: f64) -> Result<(), Error> {

@@ -12,7 +12,7 @@ use tyndall_graph::descriptor::PassDescriptor;
 
 use crate::codes;
 use crate::link::Linked;
-use crate::naming::{PARAMS, SAMPLERS, sampler};
+use crate::naming::{PARAMS, SAMPLERS, UNFINISHED, sampler};
 use crate::reflect::{Resource, ResourceKind};
 
 /// Checks a pass of one shader. `scene_names` are all scene data that there are.
@@ -94,6 +94,13 @@ impl Pass<'_> {
                 let problem = Diagnostic::error(codes::PARAM, resource.place.clone(), message);
                 out.push(problem.suggest(format!("declare `var<uniform> {PARAMS}: Params;`")));
             }
+        } else if name == UNFINISHED {
+            if !matches!(resource.kind, ResourceKind::StorageBuffer { read_only: false, .. }) {
+                let message =
+                    format!("`{UNFINISHED}` counts threads that did not get to the end, and is no such count");
+                let problem = Diagnostic::error(codes::VARIABLE, resource.place.clone(), message);
+                out.push(problem.suggest(format!("write `#import {UNFINISHED}`, or choose another name")));
+            }
         } else if self.scene_names.contains(&name) {
             self.scene_variable(resource, out);
         } else if sampler(name).is_some() {
@@ -109,7 +116,7 @@ impl Pass<'_> {
 
     /// The variable is neither declared nor known.
     fn is_unknown(&self, name: &str) -> bool {
-        let known = [self.private, self.scene_names, &[PARAMS]].iter().any(|names| names.contains(&name));
+        let known = [self.private, self.scene_names, &[PARAMS, UNFINISHED]].iter().any(|names| names.contains(&name));
         !known && self.descriptor.port(name).is_none() && sampler(name).is_none()
     }
 

@@ -46,7 +46,7 @@ pub use codes::CODES;
 pub use library::Library;
 pub use link::{CAPABILITIES, Linked, Unused, link};
 pub use mutate::{Mutation, MutationKind};
-pub use naming::{PARAMS, SAMPLERS, Sampler, counted, sampler};
+pub use naming::{PARAMS, SAMPLERS, Sampler, UNFINISHED, counted, sampler};
 pub use params::{Param, ParamDefault, ParamKind, ParamSource};
 pub use ports::{ReflectedPort, derive_port, reflect_ports};
 pub use reflect::{EntryPoint, Resource, ResourceKind, SampleClass, Target, storage_format};

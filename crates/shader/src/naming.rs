@@ -3,6 +3,9 @@
 /// The uniform variable whose members are parameters.
 pub const PARAMS: &str = "params";
 
+/// The name of the count of threads that did not get to the end of their loops (`shaders/unfinished.wgsl`).
+pub const UNFINISHED: &str = "unfinished";
+
 /// The scene data whose element count an `override` of this name is: `phase_table` of `phase_table_count`. It is given
 /// when the pipeline is made, so that what a scene does not need costs nothing; it is no parameter.
 pub fn counted(name: &str) -> Option<&str> {

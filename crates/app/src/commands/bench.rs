@@ -70,6 +70,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Bench) -> Result<(), 
     }
     let runs: Vec<u64> = running.executor.counters().iter().map(|counters| counters.runs).collect();
     let passes = time_passes(&mut running, verb, &runs)?;
+    loading::warn_of_unfinished(&running)?;
     let plan: &Plan = running.executor.plan();
     let figures = Figures {
         adapter: gpu.info.name.clone(),

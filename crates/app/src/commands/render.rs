@@ -56,6 +56,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Render) -> Result<Vec
         progress.inc(1);
     }
     progress.finish_and_clear();
+    loading::warn_of_unfinished(&running)?;
     terminal::line(&clock.summary());
     Ok(depends_on)
 }
