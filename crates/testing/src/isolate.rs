@@ -77,11 +77,7 @@ fn run_pass(
                 named.all(|port| port.is_some_and(|port| rendered.ports.contains_key(&port)))
             });
         outcome.left_out.extend(left_out.iter().map(|property| {
-            format!(
-                "{} {} is about a port that its pass does not read: not asked",
-                tapped.name,
-                property::name(property)
-            )
+            format!("{} {} is about a port that its pass does not read", tapped.name, property::name(property))
         }));
         let mut port = judge.port(&Tapped { properties: asked, ..tapped.clone() }, &rendered);
         // Nothing was rendered upstream, so nothing can be said of when the golden was made.

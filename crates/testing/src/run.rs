@@ -103,6 +103,13 @@ impl Session {
         Ok(())
     }
 
+    /// The registry of a test, and the kinds of the passes that it runs.
+    pub(crate) fn runs(&mut self, path: &Path) -> Result<(Arc<Registry>, BTreeSet<String>), Error> {
+        let ready = self.ready(path, &Options::default(), &mut Outcome::default())?;
+        let kinds = passes(&ready.plan).into_iter().map(|pass| pass.kind).collect();
+        Ok((ready.registry, kinds))
+    }
+
     fn ready(&mut self, path: &Path, options: &Options, outcome: &mut Outcome) -> Result<Ready, Error> {
         let mut out = Diagnostics::default();
         let Some(mut file) = read(path, &mut out) else { return Err(out.into()) };
