@@ -34,9 +34,28 @@ pub fn incident(light: &Light, position: DVec3) -> Incident {
     }
 }
 
+/// Bits of each of the four channels of a texture that says which lights reach a point.
+const BITS_OF_CHANNEL: usize = 24;
+
+/// Lights that there are bits for.
+pub const LIT_LIGHTS: usize = 4 * BITS_OF_CHANNEL;
+
+/// The channel and the bit of a light; none beyond [`LIT_LIGHTS`].
+pub fn lit_bit(light: usize) -> Option<(usize, u32)> {
+    (light < LIT_LIGHTS).then_some((light / BITS_OF_CHANNEL, 1 << (light % BITS_OF_CHANNEL)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn bits_are_those_of_the_shader() {
+        let stated = format!("const BITS_OF_CHANNEL: u32 = {BITS_OF_CHANNEL}u;");
+        assert!(include_str!("lights.wgsl").contains(&stated), "lights.wgsl does not say: {stated}");
+        assert_eq!((lit_bit(0), lit_bit(25), lit_bit(LIT_LIGHTS)), (Some((0, 1)), Some((1, 2)), None));
+        assert_eq!(lit_bit(LIT_LIGHTS - 1), Some((3, 1 << 23)));
+    }
 
     #[test]
     fn falls_with_the_square_of_the_distance() {

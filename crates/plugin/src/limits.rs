@@ -21,7 +21,7 @@ pub enum SceneFeature {
     TooManySpots,
     /// A medium that takes light.
     Medium,
-    /// More than 96 lights.
+    /// More lights than a texture of those that reach a point has bits for.
     ManyLights,
 }
 

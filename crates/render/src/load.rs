@@ -11,6 +11,7 @@ use tyndall_graph::{Graph, Keep, Override, Overrides, ParamSetting, Plan, PlanOp
 use tyndall_plugin::{Registry, SceneFeature};
 use tyndall_scene::model::LightKind;
 use tyndall_scene::{SHININESSES_MAX, SPOTS_MAX, Scene};
+use tyndall_shaders::lights::LIT_LIGHTS;
 
 use crate::codes::{INPUT_NEEDED, LIMIT, NO_SCENE, NOT_HOMOGENEOUS};
 use crate::error::Error;
@@ -88,7 +89,7 @@ impl Loaded {
 fn has(scene: &Scene, feature: SceneFeature) -> bool {
     match feature {
         SceneFeature::Point => scene.lights.iter().any(|light| light.kind == LightKind::Point),
-        SceneFeature::ManyLights => scene.lights.len() > 96,
+        SceneFeature::ManyLights => scene.lights.len() > LIT_LIGHTS,
         SceneFeature::Medium => scene.medium.as_ref().is_some_and(|medium| medium.extinction.max_element() > 0.0),
         SceneFeature::Spot => scene.lights.iter().any(|light| matches!(light.kind, LightKind::Spot { .. })),
         SceneFeature::Directional => scene.lights.iter().any(|light| light.kind == LightKind::Directional),

@@ -1,6 +1,7 @@
 //! The plugin `shadow_planes`: airlight between the shadow planes that a view ray crosses.
 
 mod reference;
+mod reference_biri;
 
 use tyndall_plugin::{Plugin, folder};
 
@@ -8,4 +9,5 @@ use tyndall_plugin::{Plugin, folder};
 pub fn plugin() -> Plugin {
     Plugin::new("shadow_planes", folder!("shadow_planes": "plugin.ron", "exact.wgsl", "few_nodes.wgsl", "biri.wgsl"))
         .reference("shadow_planes.exact", reference::exact)
+        .reference("shadow_planes.biri", reference_biri::biri)
 }

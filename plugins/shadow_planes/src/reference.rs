@@ -4,11 +4,9 @@ use std::collections::BTreeMap;
 
 use tyndall_plugin::ReferenceInput;
 use tyndall_shaders::airlight::airlight;
+use tyndall_shaders::lights::lit_bit;
 use tyndall_shaders::ray::ray_of_pixel;
 use tyndall_shaders::shadows::{is_lit, lit_intervals};
-
-/// Bits of a channel, as in `lights.wgsl`.
-const BITS_OF_CHANNEL: usize = 24;
 
 /// Airlight over the lit intervals, found by brute force among all triangles, and the lights that reach the surface.
 pub(crate) fn exact(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String> {
@@ -27,10 +25,10 @@ pub(crate) fn exact(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str,
                     let part = airlight(light, &scene.medium, &ray, near, far).to_array();
                     (0..3).for_each(|channel| sum[channel] += part[channel]);
                 }
-                if let Some(channel) = bits.get_mut(index / BITS_OF_CHANNEL)
+                if let Some((channel, bit)) = lit_bit(index)
                     && is_lit(light, &scene.casters, &ray, way)
                 {
-                    *channel += (1_u32 << (index % BITS_OF_CHANNEL)) as f32;
+                    bits[channel] += bit as f32;
                 }
             }
             radiance.extend(sum.map(|channel| channel as f32));

@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 use tyndall_plugin::{PortData, ReferenceInput};
-use tyndall_shaders::lights::incident;
+use tyndall_shaders::lights::{incident, lit_bit};
 use tyndall_shaders::medium::{effective_way, transmittance};
 use tyndall_shaders::ray::{Ray, ray_of_pixel};
 use tyndall_shaders::scene::{HeightFog, Light, Scene};
@@ -74,13 +74,9 @@ pub(crate) fn of_surfaces(
     Ok(BTreeMap::from([("radiance", radiance)]))
 }
 
-/// Bits of a channel, as in `lights.wgsl`.
-const BITS_OF_CHANNEL: usize = 24;
-
 /// Whether a light is among those of a texel; beyond those that there is room for all are.
 fn has_light(bits: [f64; 4], light: usize) -> bool {
-    let channel = bits.get(light / BITS_OF_CHANNEL);
-    channel.is_none_or(|channel| *channel as u32 >> (light % BITS_OF_CHANNEL) & 1 == 1)
+    lit_bit(light).is_none_or(|(channel, bit)| bits[channel] as u32 & bit != 0)
 }
 
 fn surface(ray: &Ray, way: f64, normal: [f64; 4], diffuse: [f64; 4], phong: [f64; 4]) -> Surface {

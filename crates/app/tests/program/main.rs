@@ -7,6 +7,7 @@ mod aerial;
 mod assets;
 mod bench;
 mod biri;
+mod casters;
 mod check;
 mod compare;
 mod contributing;

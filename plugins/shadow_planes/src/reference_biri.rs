@@ -1,0 +1,149 @@
+//! The published shadow planes in double precision: plane after plane, with neither slices nor a light's frame.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+use tyndall_plugin::ReferenceInput;
+use tyndall_plugin::descriptor::ParamValue;
+use tyndall_shaders::airlight::airlight;
+use tyndall_shaders::lights::lit_bit;
+use tyndall_shaders::ray::{Ray, ray_of_pixel};
+use tyndall_shaders::scene::{Caster, Light};
+
+/// A triangle that a light sees at less than this angle, rad, is transparent to it: as in `silhouette.rs`.
+const EDGE_ON: f64 = 1e-6;
+
+/// What eight bits hold.
+const STENCIL_MAX: i32 = 255;
+
+/// What lies behind a silhouette edge.
+struct Plane {
+    a: DVec3,
+    b: DVec3,
+    /// Triangles to the left of the way from a to b as the light sees it, less those to the right.
+    excess: i32,
+}
+
+/// A plane where a ray crosses it.
+struct Crossed {
+    /// m.
+    x: f64,
+    /// It faces the eye: the shadow is behind it.
+    facing: bool,
+    /// In the order, m.
+    place: f64,
+}
+
+/// Airlight by the planes, drawn in their order with a stencil or without.
+pub(crate) fn biri(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String> {
+    let scene = input.scene()?;
+    let size = input.size("radiance")?;
+    let depth = input.input("depth")?;
+    let stencil = input.params.get("stencil") == Some(&ParamValue::Bool(true));
+    let planes: Vec<Vec<Plane>> = scene.lights.iter().map(|light| silhouette(light, &scene.casters)).collect();
+    let (mut radiance, mut lit) = (Vec::new(), Vec::new());
+    for y in 0..size[1] {
+        for x in 0..size[0] {
+            let ray = ray_of_pixel(&scene.camera, [x, y], size);
+            let way = f64::from(depth.data[(y * depth.width + x) as usize]);
+            let mut sum = DVec3::ZERO;
+            let mut bits = [0.0_f32; 4];
+            for (index, (light, planes)) in scene.lights.iter().zip(&planes).enumerate() {
+                let crossed = crossed(light, planes, &ray, way);
+                let volumes = volumes_of_surface(&crossed);
+                if volumes == 0
+                    && let Some((channel, bit)) = lit_bit(index)
+                {
+                    bits[channel] += bit as f32;
+                }
+                if matches!(light, Light::Point { .. }) {
+                    let before = |x: f64| airlight(light, &scene.medium, &ray, 0.0, x);
+                    sum += drawn(&crossed, volumes, stencil, way, before);
+                }
+            }
+            radiance.extend(sum.as_vec3().to_array());
+            radiance.push(1.0);
+            lit.extend(bits);
+        }
+    }
+    Ok(BTreeMap::from([("radiance", radiance), ("lit", lit)]))
+}
+
+/// The planes before the surface that face the eye, less those that do not.
+fn volumes_of_surface(crossed: &[Crossed]) -> i32 {
+    let facing = crossed.iter().filter(|plane| plane.facing).count() as i32;
+    let averted = crossed.len() as i32 - facing;
+    (facing.min(STENCIL_MAX) - averted).max(0)
+}
+
+/// The surface, then the planes.
+fn drawn(crossed: &[Crossed], volumes: i32, stencil: bool, way: f64, before: impl Fn(f64) -> DVec3) -> DVec3 {
+    let mut sum = if volumes == 0 { before(way) } else { DVec3::ZERO };
+    let mut count = volumes;
+    for plane in crossed {
+        let passes = !stencil || count == i32::from(plane.facing);
+        let sign = if plane.facing { 1.0 } else { -1.0 };
+        if passes {
+            sum += sign * before(plane.x);
+        }
+        count = (count - sign as i32).clamp(0, STENCIL_MAX);
+    }
+    sum
+}
+
+/// Those that a ray crosses before its end, the farthest edges first.
+fn crossed(light: &Light, planes: &[Plane], ray: &Ray, way: f64) -> Vec<Crossed> {
+    let crossing = |plane: &Plane| {
+        // Behind the edge a point is b + s (a - b) + t away, with 0 < s < 1 and t > 0.
+        let away = |point: DVec3| match *light {
+            Light::Point { position, .. } | Light::Spot { position, .. } => point - position,
+            Light::Directional { direction, .. } => direction,
+        };
+        let normal = (plane.a - plane.b).cross(away(plane.b));
+        let rise = normal.dot(ray.direction);
+        let x = normal.dot(plane.a - ray.origin) / rise;
+        let point = ray.at(x);
+        let (to_a, to_b) = (normal.cross(away(plane.a)), normal.cross(away(plane.b)));
+        let between = to_a.dot(point - plane.a) * to_a.dot(plane.b - plane.a) > 0.0
+            && to_b.dot(point - plane.b) * to_b.dot(plane.a - plane.b) > 0.0;
+        let outward = (plane.b - plane.a).cross(normal);
+        let behind = outward.dot(point - plane.a) * outward.dot(away(plane.a)) > 0.0;
+        // What is left of the way from a to b, as the light sees it, the normal points away from.
+        let facing = (plane.excess > 0) == (rise < 0.0);
+        let place = (0.5 * (plane.a + plane.b) - ray.origin).length();
+        (between && behind && x > 0.0 && x < way).then_some(Crossed { x, facing, place })
+    };
+    let mut crossed: Vec<Crossed> = planes.iter().filter_map(crossing).collect();
+    crossed.sort_by(|a, b| b.place.total_cmp(&a.place));
+    crossed
+}
+
+/// The edges with more triangles on one side than on the other. Corners at one position are one vertex.
+fn silhouette(light: &Light, casters: &[Caster]) -> Vec<Plane> {
+    let mut edges: BTreeMap<[[u64; 3]; 2], Plane> = BTreeMap::new();
+    for triangle in casters {
+        let facing = facing(light, triangle);
+        let [a, b, c] = *triangle;
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let bits = |v: DVec3| (v + DVec3::ZERO).to_array().map(f64::to_bits);
+            let forward = bits(from) < bits(to);
+            let (a, b) = if forward { (from, to) } else { (to, from) };
+            let plane = edges.entry([bits(a), bits(b)]).or_insert(Plane { a, b, excess: 0 });
+            plane.excess += if forward { facing } else { -facing };
+        }
+    }
+    edges.into_values().filter(|plane| plane.excess != 0).collect()
+}
+
+/// 1 where the corners run counter-clockwise as the light sees them, -1 clockwise.
+fn facing(light: &Light, &[a, b, c]: &Caster) -> i32 {
+    let normal = (b - a).cross(c - a);
+    let (away, distance) = match *light {
+        Light::Point { position, .. } | Light::Spot { position, .. } => {
+            let [a, b, c] = [a - position, b - position, c - position];
+            (normal.dot(a), a.length().max(b.length()).max(c.length()))
+        }
+        Light::Directional { direction, .. } => (normal.dot(direction), 1.0),
+    };
+    if away.abs() > EDGE_ON * distance * normal.length() { -away.signum() as i32 } else { 0 }
+}
