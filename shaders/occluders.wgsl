@@ -2,7 +2,7 @@
 // hierarchy of boxes (crates/scene/src/occluders.rs builds it). Silhouettes have no part in it.
 //
 // Points are asked for by 32, as bits, so that a walk down the hierarchy serves them all: software Vulkan ends all loops
-// of a thread after 65,535 rounds, silently, and a walk for each point of a fine march would come to more. The shadow of
+// of a thread after 65,535 rounds, and a walk for each point of a fine march would come to more. The shadow of
 // a triangle is convex, so it hides the points of one interval of the ray.
 
 #import scene

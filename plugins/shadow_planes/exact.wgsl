@@ -35,7 +35,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if whole {
             found = next_lit_part(shadow, found.walk);
         }
-        let piece = airlight_of_part(cursor, lights.items[light], medium, phase, ray, found.part, nodes);
+        let piece = airlight_of_part(cursor, lights.items[light], medium, phase, ray, found.part, shadow.way, nodes);
         sum += piece.radiance;
         cursor = piece.next;
         whole = cursor.light > light;

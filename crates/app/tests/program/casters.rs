@@ -193,10 +193,8 @@ fn loops_that_the_driver_ends_are_told() {
     let march = |steps: &str| {
         let steps = format!("steps={steps}");
         let run = ["render", graph.to_str().unwrap(), "--scene", scene.to_str().unwrap(), "--size", "8x6"];
-        let ended = desk.ends(
-            0,
-            &[&run[..], &["--set", &steps, "--set", "shadows=false", "--output", "airlight=a.npy"]].concat(),
-        );
+        let ended = desk
+            .ends(0, &[&run[..], &["--set", &steps, "--set", "shadows=false", "--output", "airlight=a.npy"]].concat());
         (ended.err, tyndall_image::read(&desk.path("a.npy")).unwrap())
     };
     let (told, right) = march("16384");
