@@ -122,10 +122,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var cursor = Cursor(0u, 0u, 0.0);
     lit_bits += select(vec4<f32>(0.0), bit_of_light(0u), drawn.stencil == 0);
     loop {
-        let from_point = select(0.0, drawn.share, lights.items[light].kind == POINT);
         let part = vec2<f32>(0.0, drawn.x);
         let piece = airlight_between(cursor, lights.items[light], medium, phase, ray, part, nodes);
-        sum += from_point * piece.radiance;
+        sum += drawn.share * piece.radiance;
         cursor = piece.next;
         if cursor.light > light {
             drawn = next_drawn(shadow, drawn);

@@ -56,10 +56,8 @@ pub(crate) fn biri(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, 
                 {
                     bits[channel] += bit as f32;
                 }
-                if matches!(light, Light::Point { .. }) {
-                    let before = |x: f64| airlight(light, &scene.medium, &ray, 0.0, x);
-                    sum += drawn(&crossed, volumes, stencil, way, before);
-                }
+                let before = |x: f64| airlight(light, &scene.medium, &ray, 0.0, x);
+                sum += drawn(&crossed, volumes, stencil, way, before);
             }
             radiance.extend(sum.as_vec3().to_array());
             radiance.push(1.0);

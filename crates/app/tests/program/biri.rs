@@ -128,19 +128,3 @@ fn an_eye_in_shadow_sees_light_that_is_not_there() {
     println!("{shining} of {} dark numbers shine", dark.len());
     assert!(dark.len() > 3000 && shining > dark.len() * 9 / 10, "{shining} of {}", dark.len());
 }
-
-#[test]
-fn what_is_not_drawn_is_told() {
-    let desk = Desk::new();
-    let graph = shipped("modes/biri");
-    let warned = |arguments: &[&str]| {
-        desk.ends(0, &[&["render", graph.to_str().unwrap(), "--size", "8x6"], arguments].concat()).err
-    };
-    let told = warned(&[
-        "--set",
-        "scene.lights=[Spot(position: (0, 3, 0), direction: (0, -1, 0), intensity: (1, 1, 1), cutoff: 30), Directional(direction: (0, -1, 0), irradiance: (1, 1, 1))]",
-    ]);
-    assert_eq!(told.matches("warning[limit]: pass `air`: ").count(), 2, "{told}");
-    let plain = warned(&["--set", "scene.lights=[Point(position: (0, 3, 0), intensity: (1, 1, 1))]"]);
-    assert!(!plain.contains("[limit]"), "{plain}");
-}
