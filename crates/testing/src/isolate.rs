@@ -9,7 +9,6 @@ use tyndall_graph::{PortRef, Resource};
 use tyndall_render::Error;
 
 use crate::adapter::AdapterClass;
-use crate::file::MOST_TEXELS;
 use crate::golden;
 use crate::judge::Judge;
 use crate::options::Options;
@@ -24,7 +23,7 @@ pub(crate) fn run(session: &mut Session, ready: &Ready, options: &Options, outco
     let mut passes: Vec<u32> = ready.tapped.iter().map(|tapped| tapped.port.pass).collect();
     passes.dedup();
     for pass in passes {
-        for frame in &ready.file.frames {
+        for frame in ready.file.frames.iter().filter(|frame| options.looks_at(**frame)) {
             match inputs(ready, pass, *frame) {
                 Ok(inputs) => run_pass(session, ready, (pass, *frame), &inputs, options, outcome)?,
                 Err(why) => {
@@ -51,6 +50,7 @@ fn run_pass(
     let ports: Vec<PortRef> = tapped.iter().map(|tapped| tapped.port).chain(fed).collect();
     let mut rendered = session.render_alone(&ready.loaded, &ready.registry, &ports, inputs, frame)?;
     rendered.ports.extend(inputs.iter().map(|(port, data)| (*port, data.clone())));
+    let judging = session.judging();
     let judge = Judge { ready, options, adapter: AdapterClass::of(session.gpu()), answers: &session.answers };
     for tapped in tapped {
         let mut port = judge.port(tapped, &rendered);
@@ -63,6 +63,7 @@ fn run_pass(
         }
         outcome.ports.push(port);
     }
+    session.judged(judging);
     Ok(())
 }
 
@@ -91,7 +92,7 @@ fn from_golden(ready: &Ready, port: PortRef, frame: u32) -> Result<Option<PortDa
     let planned = ready.plan.planned(port).ok_or_else(|| format!("its input `{name}` is not planned"))?;
     let blank = blank(ready.plan.resource(planned));
     let like = Picture::of(&blank, ready.plan.ports[planned as usize].class);
-    if like.thinned(MOST_TEXELS) != like {
+    if !like.fits_golden() {
         return Ok(None);
     }
     let key = ready.key(&name, frame);

@@ -51,6 +51,7 @@ mod session;
 mod substitute;
 pub mod summary;
 mod told;
+mod untapped;
 
 use std::path::Path;
 
@@ -59,9 +60,9 @@ pub use codes::CODES;
 pub use discover::{Found, discover};
 pub use file::TestFile;
 pub use fingerprint::Fingerprint;
-pub use metric::{Judgement, Metric};
+pub use metric::{Compared, Judgement, Metric};
 pub use options::{Options, Robustness};
-pub use outcome::{Check, GOLDEN, Outcome, PassOutcome, PortOutcome, Problem, RelationOutcome, State};
+pub use outcome::{Check, GOLDEN, Outcome, PassOutcome, PortOutcome, Problem, RelationOutcome, State, Untapped};
 pub use picture::Picture;
 pub use report::Report;
 pub use session::{Plugins, Rendered, Saved, Session, Variation};

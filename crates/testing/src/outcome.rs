@@ -21,8 +21,12 @@ pub struct Outcome {
     pub ports: Vec<PortOutcome>,
     /// How ports change from run to run.
     pub relations: Vec<RelationOutcome>,
+    /// In how many other ways everything was rendered, and held against the first bit by bit.
+    pub ways: usize,
     /// What came out different in another order, with other memory, or when it was done again.
     pub robustness: Vec<String>,
+    /// Ports that the test does not look at, for a report.
+    pub untapped: Vec<Untapped>,
     /// What stood in the way of judging, and goldens that nobody claims.
     pub problems: Vec<Problem>,
     /// Mistakes that leave a meaning.
@@ -35,6 +39,8 @@ pub struct Outcome {
     pub took: Duration,
     /// Name of its page in a report, without the suffix; empty where there is no report.
     pub page: String,
+    /// Path of the picture that stands for it in a report: of a port that diverged, else of the last one.
+    pub picture: Option<String>,
 }
 
 /// A pass that ran.
@@ -52,6 +58,19 @@ pub struct PassOutcome {
     pub microseconds: Option<f64>,
 }
 
+/// A port that a test does not look at.
+#[derive(Debug)]
+pub struct Untapped {
+    /// `pass.port`.
+    pub name: String,
+    /// The pass that writes it.
+    pub pass: String,
+    /// The frame.
+    pub frame: u32,
+    /// What was rendered, no larger than a golden is.
+    pub picture: Picture,
+}
+
 /// What stood in the way of judging.
 #[derive(Debug)]
 pub enum Problem {
@@ -61,10 +80,32 @@ pub enum Problem {
     Machine(String),
     /// A golden that no tap claims.
     Orphan(PathBuf),
+    /// The name of a golden that is gone, of whose record no tap knows.
+    OrphanRecord(String),
     /// A golden could not be written.
     NotBlessed(String),
     /// A pass could not be run alone.
     NotIsolated(String),
+}
+
+impl Problem {
+    /// In one line; of several mistakes the first.
+    pub(crate) fn line(&self) -> String {
+        match self {
+            Problem::Mistakes(mistakes) => {
+                mistakes.iter().next().map_or_else(String::new, |first| format!("{}: {}", first.code, first.message))
+            }
+            Problem::Machine(why) => format!("cannot run: {why}"),
+            Problem::Orphan(path) => {
+                format!("no tap claims the golden `{}`: delete it, or bless to drop it", path.display())
+            }
+            Problem::OrphanRecord(name) => {
+                format!("the record of the golden `{name}` has no file, and no tap claims it: bless to drop it")
+            }
+            Problem::NotBlessed(why) => format!("not blessed: {why}"),
+            Problem::NotIsolated(why) => format!("cannot run a pass alone: {why}"),
+        }
+    }
 }
 
 /// What was found about a port in a frame.
@@ -147,12 +188,19 @@ impl Outcome {
             && self.relations.iter().all(|relation| relation.judgement.passed)
     }
 
+    /// Nothing failed, but nothing was held against anything either: what the test says is of goldens or of its own size,
+    /// and these were left out. It has neither passed nor failed.
+    pub fn checked_nothing(&self) -> bool {
+        let checks = self.ports.iter().map(|port| port.checks.len()).sum::<usize>();
+        self.passed() && checks + self.relations.len() + self.ways == 0
+    }
+
     /// 0 passed, 1 something does not hold, 2 the input is wrong, 3 the machine cannot do it.
     pub fn exit_code(&self) -> u8 {
         let of_problem = |problem: &Problem| match problem {
             Problem::Mistakes(_) => 2,
             Problem::Machine(_) => 3,
-            Problem::Orphan(_) | Problem::NotBlessed(_) | Problem::NotIsolated(_) => 1,
+            Problem::Orphan(_) | Problem::OrphanRecord(_) | Problem::NotBlessed(_) | Problem::NotIsolated(_) => 1,
         };
         let problems = self.problems.iter().map(of_problem).max().unwrap_or(0);
         problems.max(u8::from(!self.passed()))
@@ -186,7 +234,11 @@ impl Outcome {
 
     /// Lets go of the pictures of its ports.
     pub fn drop_pictures(&mut self) {
+        self.untapped.clear();
         self.ports.iter_mut().for_each(|port| (port.actual, port.expected) = (None, None));
+        let checks = self.ports.iter_mut().flat_map(|port| &mut port.checks).map(|check| &mut check.judgement);
+        let relations = self.relations.iter_mut().map(|relation| &mut relation.judgement);
+        checks.chain(relations).for_each(|judgement| judgement.pictures = None);
     }
 
     /// What a person reads about a failed test.
@@ -200,12 +252,7 @@ impl Outcome {
         for problem in &self.problems {
             text += &match problem {
                 Problem::Mistakes(mistakes) => of_mistakes(mistakes),
-                Problem::Machine(why) => format!("  cannot run: {why}\n"),
-                Problem::Orphan(path) => {
-                    format!("  no tap claims the golden `{}`: delete it, or bless to drop it\n", path.display())
-                }
-                Problem::NotBlessed(why) => format!("  not blessed: {why}\n"),
-                Problem::NotIsolated(why) => format!("  cannot run a pass alone: {why}\n"),
+                other => format!("  {}\n", other.line()),
             };
         }
         if let Some(first) = self.guilty().first() {
@@ -250,9 +297,28 @@ impl Outcome {
 
     /// The command that blesses one golden.
     pub fn bless_command(&self, port: &PortOutcome) -> String {
-        format!("tyndall test {} --tap {} --bless", self.path.display(), port.name)
+        let frame = if port.key == port.name { String::new() } else { format!(" --frame {}", port.frame) };
+        format!("tyndall test {} --tap {}{frame} --bless", quoted(&self.path.display().to_string()), port.name)
     }
+}
+
+/// A path as a shell takes it for one word.
+fn quoted(path: &str) -> String {
+    let plain = |letter: char| letter.is_alphanumeric() || "/\\._-+,:@%".contains(letter);
+    if path.chars().all(plain) { path.to_owned() } else { format!("'{}'", path.replace('\'', "'\\''")) }
 }
 
 /// What a comparison with a golden is called.
 pub const GOLDEN: &str = "golden";
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn paths_are_one_word_of_a_shell() {
+        assert_eq!(quoted("plugins/lens/tests/lens.test.ron"), "plugins/lens/tests/lens.test.ron");
+        assert_eq!(quoted("my tests/it's.test.ron"), r"'my tests/it'\''s.test.ron'");
+        assert_eq!(quoted("a$b"), "'a$b'");
+    }
+}

@@ -26,7 +26,7 @@ fn report(folder: &Path) -> PathBuf {
         assert!(outcome.ports.iter().all(|port| port.actual.is_none()), "pictures are let go");
     }
     assert!(!folder.exists(), "a report that is not whole is not seen");
-    report.finish("an adapter", &[right, wrong]).unwrap()
+    report.finish("an adapter", &[right, wrong], &["a note".to_owned()]).unwrap()
 }
 
 /// Where people look at the screenshots.
@@ -177,7 +177,7 @@ fn a_report_is_written_whole_or_not_at_all() {
     fs::write(folder.join("stays"), "until another report takes its place").unwrap();
     drop(Report::begin(&folder).unwrap());
     assert_eq!(fs::read_to_string(folder.join("index.html")).unwrap(), before);
-    Report::begin(&folder).unwrap().finish("an adapter", &[]).unwrap();
+    Report::begin(&folder).unwrap().finish("an adapter", &[], &[]).unwrap();
     assert!(!folder.join("stays").exists());
     assert_eq!(fs::read_dir(desk.path()).unwrap().count(), 1);
     let mine = desk.path().join("mine");
