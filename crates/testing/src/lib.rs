@@ -27,6 +27,7 @@
 
 mod adapter;
 mod answers;
+mod blame;
 mod bless;
 pub mod codes;
 mod digest;
@@ -62,7 +63,9 @@ pub use file::TestFile;
 pub use fingerprint::Fingerprint;
 pub use metric::{Compared, Judgement, Metric};
 pub use options::{Options, Robustness};
-pub use outcome::{Check, GOLDEN, Outcome, PassOutcome, PortOutcome, Problem, RelationOutcome, State, Untapped};
+pub use outcome::{
+    Check, GOLDEN, Outcome, PassOutcome, PortOutcome, Problem, Reach, RelationOutcome, State, Suspicion, Untapped,
+};
 pub use picture::Picture;
 pub use report::Report;
 pub use session::{Plugins, Rendered, Saved, Session, Variation};

@@ -20,8 +20,13 @@ pub fn headline(outcome: &Outcome) -> Option<String> {
     let stops = |problem: &&Problem| matches!(problem, Problem::Mistakes(_) | Problem::Machine(_));
     let stopped = outcome.problems.iter().find(stops).map(Problem::line);
     let diverging = || outcome.guilty().first().map(|pass| format!("first diverging pass: {pass}"));
+    let unjudged = || {
+        let port = outcome.ports.iter().find(|port| port.state == State::Unjudged)?;
+        let check = port.checks.iter().find(|check| !check.judgement.passed)?;
+        Some(format!("{}: {}", port.name, check.judgement.figures))
+    };
     let other = || outcome.robustness.first().cloned().or_else(|| outcome.problems.first().map(Problem::line));
-    stopped.or_else(diverging).or_else(other)
+    stopped.or_else(diverging).or_else(unjudged).or_else(other)
 }
 
 /// How many tests passed, how many failed, and how many checked nothing.
@@ -67,12 +72,18 @@ fn test(outcome: &Outcome) -> Value {
         "first_diverging_pass": outcome.guilty().first(),
         "diverging": outcome.guilty(),
         "inherited": outcome.inherited(),
+        "suspicions": outcome.suspicions.iter().map(suspicion).collect::<Vec<_>>(),
+        "left_out": outcome.left_out,
         "ports": outcome.ports.iter().map(port).collect::<Vec<_>>(),
         "relations": outcome.relations.iter().map(relation).collect::<Vec<_>>(),
         "passes": outcome.passes.iter().map(pass).collect::<Vec<_>>(),
         "robustness": outcome.robustness,
         "text": outcome.text(),
     })
+}
+
+fn suspicion(suspicion: &crate::outcome::Suspicion) -> Value {
+    json!({ "pass": suspicion.pass, "unheld": suspicion.unheld })
 }
 
 fn pass(pass: &crate::outcome::PassOutcome) -> Value {
@@ -110,6 +121,7 @@ fn state(state: State) -> &'static str {
         State::Passed => "passed",
         State::Guilty => "diverged",
         State::Inherited => "inherited",
+        State::Unjudged => "unjudged",
     }
 }
 

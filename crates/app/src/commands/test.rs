@@ -206,6 +206,9 @@ fn told(outcome: &Outcome, earlier: &mut Told) {
         let are = if stale == 1 { "golden is" } else { "goldens are" };
         terminal::line(&format!("  {stale} {are} stale, and still right: --bless renews what is"));
     }
+    for line in &outcome.left_out {
+        terminal::line(&format!("  left out: {line}"));
+    }
     if !outcome.warnings.is_empty() {
         terminal::error(&render_text(&outcome.warnings, terminal::color()));
     }

@@ -28,7 +28,7 @@ pub enum Missing {
     #[error("there is no golden `{}`: look at the picture, and bless it", .0.display())]
     File(PathBuf),
     /// Somebody has blessed one, and it is gone.
-    #[error("the golden `{}` is gone, and its record is still there: restore it, or bless it again", .0.display())]
+    #[error("there is no golden `{}`, and its record is still there: restore it, or bless it again", .0.display())]
     Gone(PathBuf),
     /// The file is there, and nothing says what it was made from.
     #[error("nothing says what the golden `{}` was made from: bless it", .0.display())]

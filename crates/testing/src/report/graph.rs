@@ -123,11 +123,12 @@ fn thumbnail(name: &str, frame: u32, folder: &str, (target, class, said): (&str,
 }
 
 fn card(outcome: &Outcome, pass: &PassOutcome, (x, y, height): Place, thumbnails: &[String]) -> String {
-    let mut looked_at = outcome.ports.iter().filter(|port| port.pass == pass.name && !port.checks.is_empty());
+    let checked = || outcome.ports.iter().filter(|port| port.pass == pass.name && !port.checks.is_empty());
     let class = match () {
         () if outcome.guilty().contains(&pass.name.as_str()) => state(State::Guilty),
         () if outcome.inherited().contains(&pass.name.as_str()) => state(State::Inherited),
-        () if looked_at.next().is_none() => "unseen",
+        () if checked().any(|port| port.state == State::Unjudged) => state(State::Unjudged),
+        () if checked().next().is_none() => "unseen",
         () => state(State::Passed),
     };
     let time = pass.microseconds.map_or(String::new(), |us| format!("{:.2} ms, ", us / 1e3));

@@ -84,6 +84,9 @@ pub(super) fn test(outcome: &Outcome, folder: &str, shown: &Pictures) -> String 
         let text: Vec<&str> = text.lines().map(|line| line.strip_prefix("  ").unwrap_or(line)).collect();
         let _ = writeln!(body, "<pre>{}</pre>", escaped(&text.join("\n")));
     }
+    for line in &outcome.left_out {
+        let _ = writeln!(body, "<p>left out: {}</p>", escaped(line));
+    }
     body += &graph(outcome, folder);
     let (failed, held): (Vec<_>, Vec<_>) =
         outcome.relations.iter().zip(&shown.relations).partition(|(relation, _)| relation.state != State::Passed);
@@ -94,8 +97,9 @@ pub(super) fn test(outcome: &Outcome, folder: &str, shown: &Pictures) -> String 
     let mut ports: Vec<_> = outcome.ports.iter().zip(&shown.ports).collect();
     ports.sort_by_key(|(port, _)| match port.state {
         State::Guilty => 0,
-        State::Inherited => 1,
-        State::Passed => 2,
+        State::Unjudged => 1,
+        State::Inherited => 2,
+        State::Passed => 3,
     });
     for (outcome_of, shown) in ports {
         body += &port(outcome, outcome_of, shown, folder);

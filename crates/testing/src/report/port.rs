@@ -17,6 +17,7 @@ pub(super) fn state(state: State) -> &'static str {
         State::Passed => "passed",
         State::Guilty => "diverged",
         State::Inherited => "inherited",
+        State::Unjudged => "unjudged",
     }
 }
 
@@ -30,7 +31,7 @@ pub(super) fn port(
     let nothing = port.checks.is_empty();
     let class = if nothing { "unseen" } else { state(port.state) };
     let said = if nothing { "nothing was checked of it" } else { class };
-    let open = if port.state == State::Guilty { " open" } else { "" };
+    let open = if matches!(port.state, State::Guilty | State::Unjudged) { " open" } else { "" };
     let frame = if port.frame > 0 { format!(", frame {}", port.frame) } else { String::new() };
     let mut html = format!(
         "<details class=\"port {class}\" id=\"{}\"{open}><summary><b>{}</b>{frame} <small>{}</small> <span class=\"state\">{said}</span></summary>\n<ul>",

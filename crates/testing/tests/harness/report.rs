@@ -51,8 +51,11 @@ fn the_report_opens_in_a_browser_and_its_slider_moves() {
     // The list of tests: the failed one first, with the pass that went wrong.
     browser.go(&index);
     let cells = browser.evaluate("[...document.querySelector('tbody tr').cells].map(c => c.innerText)");
-    assert!(cells[0].as_str().unwrap().contains("shifted by three pixels"), "{cells}");
-    assert_eq!((&cells[1], &cells[2]), (&json!("three"), &json!("four, five")));
+    assert!(cells[1].as_str().unwrap().contains("shifted by three pixels"), "{cells}");
+    assert_eq!((&cells[2], &cells[3]), (&json!("three"), &json!("four, five")));
+    all_images_are_there(&mut browser);
+    assert_eq!(browser.evaluate("document.querySelectorAll('tbody img').length"), json!(2));
+    assert!(browser.evaluate("document.querySelector('footer').innerText").as_str().unwrap().contains("a note"));
     for (scheme, width) in [("light", 1280), ("dark", 1280), ("dark", 420), ("light", 420)] {
         browser.prefer(scheme);
         browser.width(width);
@@ -99,6 +102,56 @@ fn the_report_opens_in_a_browser_and_its_slider_moves() {
     let elsewhere = |url: &&&str| !url.starts_with(&here) && !url.starts_with("data:") && **url != "about:blank";
     let requests = browser.requests();
     assert!(requests.len() > 10 && requests.iter().find(elsewhere).is_none(), "{requests:#?}");
+}
+
+/// A report of a test that looks at one port of six passes in six frames, at another against a picture that somebody else
+/// made, and from run to run.
+fn wide_report(folder: &Path) -> PathBuf {
+    let chain = Chain::new();
+    fs::copy(chain.path("chain.goldens/one.result.exr"), chain.path("theirs.exr")).unwrap();
+    let graph = fs::read_to_string(chain.path("chain.graph.ron")).unwrap();
+    let graph = graph.replace("\"aside\": (use: \"chain.five\"", "\"aside\": (use: \"core.scale\"");
+    chain.put("chain.graph.ron", &graph.replace("aside.result", "aside.scaled"));
+    let reference = "reference: (file: \"theirs.exr\", by: RelativeRmse(1e-4), provenance: \"another renderer\")";
+    let taps = format!("\"five.result\": (properties: [Finite]), \"three.result\": ({reference})");
+    let relation = "(about: \"twice the factor, twice the light\", runs: [{ \"aside.factor\": (3.0, 3.0, 3.0) }], expect: { \"aside.scaled\": Scaled(factor: 2.0, by: RelativeRmse(1e-6)) })";
+    chain.test(&taps, &format!("frames: [0, 1, 2, 3, 4, 5], relations: [{relation}]"));
+    fs::remove_dir_all(chain.path("chain.goldens")).unwrap();
+    let mut outcome = chain.run(&Options { for_report: true, ..Options::default() });
+    assert_eq!(outcome.guilty(), ["three", "aside"], "{}", outcome.text());
+    let report = Report::begin(folder).unwrap();
+    report.add(&mut outcome).unwrap();
+    report.finish("an adapter", &[outcome], &[]).unwrap()
+}
+
+/// A thumbnail for each port, whether the test looks at it or not, and none of them is cut off; whatever does not hold
+/// against a picture has a slider.
+#[test]
+fn every_port_is_seen_and_every_comparison_that_failed() {
+    let desk = tempfile::tempdir().unwrap();
+    let index = wide_report(&desk.path().join("report"));
+    let mut browser = Browser::open();
+    browser.width(1280);
+    browser.prefer("light");
+    browser.go(&index);
+    browser.photograph(&out("wide-index.png"));
+    let page = browser.evaluate("document.querySelector('tbody a').getAttribute('href')");
+    browser.go(&index.with_file_name(page.as_str().unwrap()));
+    all_images_are_there(&mut browser);
+    let seen = "[...document.querySelectorAll('.card')].map(card => [...card.querySelectorAll('img')].filter(i => { const a = i.getBoundingClientRect(), b = card.getBoundingClientRect(); return a.top >= b.top && a.bottom <= b.bottom && a.left >= b.left && a.right <= b.right; }).length)";
+    assert_eq!(browser.evaluate(seen), json!([6, 6, 6, 6, 6, 6, 6]));
+    let unseen = browser.evaluate("document.querySelectorAll('.card a.unseen').length");
+    assert_eq!(unseen, json!(5 * 6), "of those that the test does not look at");
+    let compared = "[...document.querySelectorAll('details')].map(d => d.querySelectorAll('.compare').length)";
+    assert_eq!(browser.evaluate(compared), json!([1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0]));
+    let heading = browser.evaluate("document.querySelector('details:not(.relation) h3').innerText");
+    assert_eq!(heading, json!("reference (another renderer)"));
+    for scheme in ["light", "dark"] {
+        browser.prefer(scheme);
+        browser.photograph(&out(&format!("wide-{scheme}.png")));
+    }
+    let complaints = browser.complaints();
+    assert!(complaints.is_empty(), "{complaints:#?}");
 }
 
 /// Which picture is seen at a part of the width of the first comparison.
