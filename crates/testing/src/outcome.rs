@@ -188,6 +188,8 @@ pub enum Reach {
 /// What was found about a relation and a port.
 #[derive(Debug)]
 pub struct RelationOutcome {
+    /// The frame.
+    pub frame: u32,
     /// What the relation says.
     pub about: String,
     /// `pass.port`.
@@ -300,7 +302,8 @@ impl Outcome {
             text += &self.port_text(port);
         }
         for relation in self.relations.iter().filter(|relation| relation.state == State::Guilty) {
-            text += &format!("    {}  {}: {}\n", relation.port, relation.about, relation.judgement.figures);
+            let RelationOutcome { port, about, judgement, .. } = relation;
+            text += &format!("    {port}{}  {about}: {}\n", frame(relation.frame), judgement.figures);
         }
         let inherited = self.inherited();
         if !inherited.is_empty() {
@@ -315,8 +318,8 @@ impl Outcome {
     fn port_text(&self, port: &PortOutcome) -> String {
         let mut text = String::new();
         for check in port.checks.iter().filter(|check| !check.judgement.passed) {
-            let frame = if port.frame > 0 { format!(" frame {}", port.frame) } else { String::new() };
-            text += &format!("    {}{frame}  {}: {}\n", port.name, check.what, check.judgement.figures);
+            let Check { what, judgement, .. } = check;
+            text += &format!("    {}{}  {what}: {}\n", port.name, frame(port.frame), judgement.figures);
             if check.what == GOLDEN {
                 if !port.stale.is_empty() {
                     let parts = port.stale.join(", ");
@@ -334,6 +337,11 @@ impl Outcome {
         let frame = if port.key == port.name { String::new() } else { format!(" --frame {}", port.frame) };
         format!("tyndall test {} --tap {}{frame} --bless", quoted(&self.path.display().to_string()), port.name)
     }
+}
+
+/// A frame other than the first.
+fn frame(frame: u32) -> String {
+    if frame > 0 { format!(" frame {frame}") } else { String::new() }
 }
 
 /// A path as a shell takes it for one word.

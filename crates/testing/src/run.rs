@@ -201,6 +201,7 @@ impl Session {
                         _ => Judgement::failed("it was not rendered in every run".to_owned()),
                     };
                     outcomes.push(RelationOutcome {
+                        frame: own.frame,
                         about: relation.about.clone(),
                         port: expectation.port.clone(),
                         pass: graph.pass(port.pass).name.clone(),

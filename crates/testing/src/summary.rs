@@ -110,6 +110,7 @@ fn relation(relation: &RelationOutcome) -> Value {
     json!({
         "about": relation.about,
         "port": relation.port,
+        "frame": relation.frame,
         "passed": relation.judgement.passed,
         "figures": relation.judgement.figures,
         "state": state(relation.state),

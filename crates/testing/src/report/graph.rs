@@ -8,7 +8,7 @@ use crate::summary::escaped;
 
 /// Width of a pass, and the room between, in CSS pixels.
 const CARD: usize = 176;
-const GAP: usize = 34;
+const GAP: usize = 28;
 const BELOW: usize = 14;
 /// Height of what is written on a card, with its borders.
 const TEXT: usize = 60;
@@ -66,7 +66,7 @@ fn places(passes: &[PassOutcome], counts: &[usize]) -> (Vec<Place>, usize, usize
     for ((_, top, _), column) in places.iter_mut().zip(&columns) {
         *top += (tallest - bottoms[*column]) / 2;
     }
-    (places, bottoms.len() * (CARD + GAP), tallest)
+    (places, bottoms.len() * (CARD + GAP) - GAP, tallest)
 }
 
 /// How many passes lie before each, along the longest way.
@@ -162,7 +162,7 @@ mod tests {
         let [a, b, c, d] = places.as_slice() else { panic!("{places:?}") };
         assert_eq!((a.0, b.0, c.0, d.0), (0, CARD + GAP, CARD + GAP, 2 * (CARD + GAP)));
         assert_eq!((a.2, b.2, c.2, d.2), (TEXT + 60, TEXT + 4 * 30, TEXT + 60, TEXT));
-        assert!(c.1 >= b.1 + b.2 && width == 3 * (CARD + GAP));
+        assert!(c.1 >= b.1 + b.2 && width == 3 * CARD + 2 * GAP);
         assert!(places.iter().all(|(_, top, tall)| top + tall <= height));
     }
 }

@@ -33,11 +33,13 @@ pub(super) fn port(
     let said = if nothing { "nothing was checked of it" } else { class };
     let open = if matches!(port.state, State::Guilty | State::Unjudged) { " open" } else { "" };
     let frame = if port.frame > 0 { format!(", frame {}", port.frame) } else { String::new() };
+    let asked: Vec<&str> = port.checks.iter().map(|check| check.what.as_str()).collect();
     let mut html = format!(
-        "<details class=\"port {class}\" id=\"{}\"{open}><summary><b>{}</b>{frame} <small>{}</small> <span class=\"state\">{said}</span></summary>\n<ul>",
+        "<details class=\"port {class}\" id=\"{}\"{open}><summary><b>{}</b>{frame} <small>{}</small> <span class=\"state\">{said}</span> <small>{}</small></summary>\n<ul>",
         escaped(&anchor(port)),
         escaped(&port.name),
-        escaped(&port.kind)
+        escaped(&port.kind),
+        escaped(&asked.join(", "))
     );
     for check in &port.checks {
         let (class, mark) = if check.judgement.passed { ("passed", "✓") } else { ("failed", "✗") };
@@ -54,7 +56,8 @@ pub(super) fn port(
         let parts = escaped(&port.stale.join(", "));
         let _ = writeln!(html, "<p>The golden is stale: {parts} changed since it was made.</p>");
     }
-    if let Some(shown) = shown {
+    // What came out is seen beside what was expected, where something was.
+    if let Some(shown) = shown.as_ref().filter(|shown| shown.against.is_some() || failed.is_empty()) {
         html += &pictures(shown, folder);
     }
     for (index, shown) in failed {
@@ -70,8 +73,9 @@ pub(super) fn port(
 /// A relation in a line; with pictures where it does not hold.
 pub(super) fn relation(relation: &RelationOutcome, shown: Option<&Shown>, folder: &str) -> String {
     let (class, mark) = (state(relation.state), if relation.judgement.passed { "✓" } else { "✗" });
+    let frame = if relation.frame > 0 { format!(", frame {}", relation.frame) } else { String::new() };
     let line = format!(
-        "<b>{mark} {}</b> {}: {}{}",
+        "<b>{mark} {}</b>{frame} {}: {}{}",
         escaped(&relation.port),
         escaped(&relation.about),
         escaped(&relation.judgement.figures),
