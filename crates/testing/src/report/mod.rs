@@ -22,10 +22,18 @@ const GENERATOR: &str = "<meta name=\"generator\" content=\"tyndall test --repor
 
 /// What is shown of a test.
 struct Pictures {
-    /// Of each port, and of each of its checks that failed against a picture.
-    ports: Vec<(Option<Shown>, Vec<(usize, Shown)>)>,
+    /// Of each port.
+    ports: Vec<PortPictures>,
     /// Of each relation that failed against a picture.
     relations: Vec<Option<Shown>>,
+}
+
+/// What is shown of a port.
+struct PortPictures {
+    /// What came out, beside its golden where it has one.
+    own: Option<Shown>,
+    /// Of each other check that failed against a picture, by its place among the checks.
+    failed: Vec<(usize, Shown)>,
 }
 
 impl Pictures {
@@ -40,7 +48,7 @@ impl Pictures {
                     failed.push((index, folder.compared(stem, compared)?));
                 }
             }
-            ports.push((folder.port(port)?, failed));
+            ports.push(PortPictures { own: folder.port(port)?, failed });
         }
         let relation = |(index, relation): (usize, &RelationOutcome)| {
             let compared = relation.judgement.pictures.as_ref();
@@ -83,7 +91,8 @@ impl Report {
         self.folder.write(&format!("{name}.html"), page::test(outcome, &name, &shown).as_bytes())?;
         let stem = |shown: &Shown| format!("{name}/{}.actual.png", shown.stem);
         let guilty = outcome.ports.iter().position(|port| port.state == State::Guilty);
-        let stands_for_it = guilty.or(outcome.ports.len().checked_sub(1)).and_then(|port| shown.ports[port].0.as_ref());
+        let stands_for_it =
+            guilty.or(outcome.ports.len().checked_sub(1)).and_then(|port| shown.ports[port].own.as_ref());
         outcome.picture = stands_for_it.map(stem);
         outcome.drop_pictures();
         outcome.page = name;

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::PortPictures;
 use super::pictures::{Against, MULTIPLES, STEPS, Shown};
 use crate::outcome::{GOLDEN, Outcome, PortOutcome, RelationOutcome, State};
 use crate::summary::escaped;
@@ -25,7 +26,7 @@ pub(super) fn state(state: State) -> &'static str {
 pub(super) fn port(
     outcome: &Outcome,
     port: &PortOutcome,
-    (shown, failed): &(Option<Shown>, Vec<(usize, Shown)>),
+    PortPictures { own, failed }: &PortPictures,
     folder: &str,
 ) -> String {
     let nothing = port.checks.is_empty();
@@ -57,7 +58,10 @@ pub(super) fn port(
         let _ = writeln!(html, "<p>The golden is stale: {parts} changed since it was made.</p>");
     }
     // What came out is seen beside what was expected, where something was.
-    if let Some(shown) = shown.as_ref().filter(|shown| shown.against.is_some() || failed.is_empty()) {
+    if let Some(shown) = own.as_ref().filter(|shown| shown.against.is_some() || failed.is_empty()) {
+        if !failed.is_empty() {
+            let _ = writeln!(html, "<h3>{GOLDEN}</h3>");
+        }
         html += &pictures(shown, folder);
     }
     for (index, shown) in failed {
