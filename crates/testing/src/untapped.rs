@@ -2,6 +2,8 @@
 
 use tyndall_graph::{Plan, PortRef};
 
+use crate::file::Tapped;
+use crate::options::Options;
 use crate::outcome::Untapped;
 use crate::run::Ready;
 use crate::session::Rendered;
@@ -12,11 +14,14 @@ pub(crate) fn written(plan: &Plan) -> Vec<PortRef> {
 }
 
 /// Takes what the test says nothing of out of what was rendered, so that all that follows is as without a report; gives
-/// pictures of the ports that no tap matches.
-pub(crate) fn take(ready: &Ready, rendered: &mut Rendered) -> Vec<Untapped> {
+/// pictures of the ports that nobody wants to know of.
+pub(crate) fn take(ready: &Ready, options: &Options, rendered: &mut Rendered) -> Vec<Untapped> {
     let graph = &ready.loaded.graph;
-    let is_tapped = |port: &PortRef| ready.tapped.iter().any(|tapped| tapped.port == *port);
-    let ports = rendered.ports.keys().filter(|port| !is_tapped(port));
+    let is_wanted = |port: &PortRef| {
+        let is_it = |tapped: &Tapped| tapped.port == *port && ready.chosen.contains(&tapped.name);
+        options.looks_at(rendered.frame) && ready.tapped.iter().any(is_it)
+    };
+    let ports = rendered.ports.keys().filter(|port| !is_wanted(port));
     let untapped = ports.filter_map(|port| {
         Some(Untapped {
             name: graph.port_name(*port),

@@ -87,6 +87,9 @@ impl Report {
     /// What cannot be written.
     pub fn add(&self, outcome: &mut Outcome) -> Result<(), Error> {
         let name = self.name(outcome);
+        // What nobody asked for and fails all the same is told like what somebody did.
+        let told = |name: &str, frame: u32| outcome.ports.iter().any(|port| port.name == name && port.frame == frame);
+        outcome.untapped.retain(|port| !told(&port.name, port.frame));
         let shown = Pictures::write(&Folder { report: &self.folder, name: &name }, outcome)?;
         self.folder.write(&format!("{name}.html"), page::test(outcome, &name, &shown).as_bytes())?;
         let stem = |shown: &Shown| format!("{name}/{}.actual.png", shown.stem);

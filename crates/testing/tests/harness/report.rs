@@ -2,9 +2,11 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use serde_json::{Value, json};
-use tyndall_testing::{Options, Report};
+use tyndall_plugin::SearchPath;
+use tyndall_testing::{Options, Report, Session};
 
 use crate::browser::Browser;
 use crate::chain::Chain;
@@ -122,6 +124,35 @@ fn wide_report(folder: &Path) -> PathBuf {
     let report = Report::begin(folder).unwrap();
     report.add(&mut outcome).unwrap();
     report.finish("an adapter", &[outcome], &[]).unwrap()
+}
+
+/// What is left out by a filter is shown like what the test does not look at.
+#[test]
+fn a_filter_leaves_no_pass_without_a_picture() {
+    let chain = Chain::new();
+    let tap = Some("five.result".to_owned());
+    let outcome = chain.run(&Options { for_report: true, tap, ..Options::default() });
+    assert!(outcome.passed() && outcome.ports.len() == 1, "{}", outcome.text());
+    let names: Vec<&str> = outcome.untapped.iter().map(|port| port.name.as_str()).collect();
+    assert_eq!(names, ["start.result", "one.result", "two.result", "three.result", "four.result", "aside.result"]);
+    assert!(chain.plain().untapped.is_empty(), "they are rendered for a report alone");
+}
+
+/// What a pass took when it first ran is what it spares where it need not run again.
+#[test]
+fn sharing_tells_what_it_saves() {
+    let chain = Chain::new();
+    let search = vec![SearchPath { path: chain.path("plugins"), required: true }];
+    let mut session = Session::new(vec![tyndall_core::plugin], search, None).unwrap();
+    let mut run = || {
+        assert!(session.run(&chain.path("chain.test.ron"), &Options::default()).passed());
+        session.saved
+    };
+    let (first, second) = (run(), run());
+    assert_eq!((first.spared, first.spared_time), (0, Duration::ZERO));
+    assert_eq!((second.passes, second.spared), (14, 7));
+    assert!(second.spared_time > Duration::ZERO && second.spared_time < second.rendering, "{second:?}");
+    assert!(second.comparing > first.comparing && second.references == Duration::ZERO, "{second:?}");
 }
 
 /// A thumbnail for each port, whether the test looks at it or not, and none of them is cut off; whatever does not hold
