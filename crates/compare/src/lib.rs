@@ -9,6 +9,7 @@
 //!
 //! The truth is computed by the twins of the shaders (`tyndall_shaders`), whatever the methods do.
 
+mod casters;
 mod codes;
 mod color;
 mod errors;
@@ -19,6 +20,7 @@ mod page;
 mod plot;
 mod prepare;
 mod report;
+mod round;
 mod run;
 mod table;
 #[cfg(test)]

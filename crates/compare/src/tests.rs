@@ -10,7 +10,8 @@ use tyndall_image::metrics::{Percentiles, percentiles};
 use tyndall_plugin::Registry;
 use tyndall_scene::Scene;
 
-use crate::truth::{Geometry, Light, Truth};
+use crate::casters::Casters;
+use crate::truth::{Geometry, Light, Seen, Truth};
 use crate::{codes, prepare, read};
 
 fn registry() -> Registry {
@@ -56,7 +57,7 @@ fn every_mistake_has_its_text_and_place() {
 #[test]
 fn the_shipped_files_have_none() {
     let registry = registry();
-    for (name, least_scenes, least_methods) in [("light", 5, 10), ("surface", 3, 5)] {
+    for (name, least_scenes, least_methods) in [("light", 5, 10), ("shadows", 6, 8), ("surface", 3, 5)] {
         let source = Source::read(&Path::new("../../graphs").join(format!("{name}.compare.ron"))).unwrap();
         let found = mistakes(&source, &registry);
         assert!(found.is_empty(), "{}", render_text(&found, false));
@@ -76,6 +77,7 @@ fn the_truth_of_surfaces() {
         depth: port(size, 1, &[2.0]),
         normal: port(size, 1, &[0.0, 0.0, 1.0, 0.0]),
         material: PortData { data: vec![0.6, 0.5, 0.4, 0.0, 0.2, 0.2, 0.2, 3.0], ..port(size, 2, &[0.0; 4]) },
+        ..nothing_met(size)
     };
     let light = |z: f64, extinction: f64| {
         let text = format!(
@@ -84,7 +86,9 @@ fn the_truth_of_surfaces() {
         );
         let source = Source::new("wall.scene.ron", text);
         let (scene, _) = Scene::from_source(&source, Path::new(""), &Vec::new()).unwrap();
-        Truth::new(Light::Surface, &scene.twin(0.0, 1.0), size, &wall, &|| ()).pixels[0].to_array()
+        let twin = scene.twin(0.0, 1.0);
+        let seen = Seen { scene: &twin, geometry: &wall, casters: None };
+        Truth::new(Light::Surface, seen, size, &|| ()).pixels[0].to_array()
     };
     let [red, green, _] = light(2.0, 0.0);
     let brdf = |rho: f64| rho / std::f64::consts::PI + 0.2;
@@ -102,7 +106,13 @@ fn port((width, height): (u32, u32), layers: u32, value: &[f32]) -> PortData {
 
 fn nothing_met(size: (u32, u32)) -> Geometry {
     let zeros = [0.0; 4];
-    Geometry { depth: port(size, 1, &[f32::INFINITY]), normal: port(size, 1, &zeros), material: port(size, 2, &zeros) }
+    Geometry {
+        depth: port(size, 1, &[f32::INFINITY]),
+        normal: port(size, 1, &zeros),
+        material: port(size, 2, &zeros),
+        objects: Vec::new(),
+        triangle: port(size, 1, &[0.0]),
+    }
 }
 
 /// Errors of the truth of a scene without surfaces, at the pixels that the reference has (see `tests/reference/README.md`).
@@ -110,7 +120,9 @@ fn truth_errors(name: &str) -> Percentiles {
     let folder = Path::new("../app/tests/reference");
     let (scene, _) = Scene::load(&folder.join(format!("{name}.scene.ron")), &Vec::new()).unwrap();
     let size = (160, 120);
-    let truth = Truth::new(Light::Airlight, &scene.twin(0.0, 4.0 / 3.0), size, &nothing_met(size), &|| ());
+    let (twin, geometry) = (scene.twin(0.0, 4.0 / 3.0), nothing_met(size));
+    let seen = Seen { scene: &twin, geometry: &geometry, casters: None };
+    let truth = Truth::new(Light::Airlight, seen, size, &|| ());
     let samples = tyndall_image::read_array(&folder.join(format!("{name}.airlight.npy"))).unwrap();
     let (samples, _) = samples.data.as_chunks::<5>();
     assert!(samples.len() > 1_000);
