@@ -22,9 +22,11 @@ impl Tiles {
     /// Texel and layer of the direction from a light to a point.
     pub fn texel(&self, light: usize, away: DVec3) -> ([u32; 2], u32) {
         let axis = away.abs().max_position();
-        let beside: Vec<f64> = (0..3).filter(|other| *other != axis).map(|other| away[other] / away[axis].abs()).collect();
+        let beside: Vec<f64> =
+            (0..3).filter(|other| *other != axis).map(|other| away[other] / away[axis].abs()).collect();
         let tile = [light as u32 % self.across, light as u32 / self.across];
-        let place = |i: usize| ((0.5 + 0.5 * beside[i]) * f64::from(self.edge)).clamp(0.0, f64::from(self.edge - 1)) as u32;
+        let place =
+            |i: usize| ((0.5 + 0.5 * beside[i]) * f64::from(self.edge)).clamp(0.0, f64::from(self.edge - 1)) as u32;
         let texel = [0, 1].map(|i| tile[i] * self.edge + place(i));
         (texel, 2 * axis as u32 + u32::from(away[axis] < 0.0))
     }
@@ -89,7 +91,8 @@ mod tests {
         for (lights, across) in [(0, 1), (1, 1), (2, 2), (4, 2), (5, 3), (9, 3), (10, 4)] {
             let tiles = Tiles::new(lights, 24);
             assert_eq!(tiles, Tiles { across, edge: 24 / across });
-            for (x, y, layer) in (0..24).flat_map(|x| (0..24).flat_map(move |y| (0..6).map(move |layer| (x, y, layer)))) {
+            for (x, y, layer) in (0..24).flat_map(|x| (0..24).flat_map(move |y| (0..6).map(move |layer| (x, y, layer))))
+            {
                 let light = tiles.light([x, y]).unwrap();
                 assert_eq!(tiles.texel(light, 3.0 * tiles.direction([x, y], layer)), ([x, y], layer));
             }

@@ -56,7 +56,7 @@ impl Casters {
                 lit = lit.into_iter().flat_map(beside).filter(|[start, end]| end > start).collect();
             }
         }
-        lit.retain(|[start, end]| end - start > SLIVER * end.min(way));
+        lit.retain(|[start, end]| end.is_infinite() || end - start > SLIVER * end);
         lit
     }
 

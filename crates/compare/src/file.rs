@@ -130,7 +130,8 @@ fn shadows(decoder: &mut Decoder<'_>, node: &Node, light: Option<Light>) -> bool
     if wanted && light == Some(Light::Surface) {
         let place = decoder.place(node.span);
         let message = "there is no truth for shadows on surfaces to be compared with";
-        decoder.report(Diagnostic::error(NO_TRUTH, place, message).suggest("compare `airlight`, or leave `shadows` out"));
+        decoder
+            .report(Diagnostic::error(NO_TRUTH, place, message).suggest("compare `airlight`, or leave `shadows` out"));
     }
     wanted
 }

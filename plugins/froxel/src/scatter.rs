@@ -41,7 +41,13 @@ pub(crate) fn reference(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static 
 }
 
 /// σ_s·p·E·e^(−σ_t·r), W/(sr m³): its mean over the middles of points³ equal parts of a froxel.
-fn froxel((scene, map): (&Scene, Option<&PortData>), grid: &Grid, columns: [u32; 2], at: [u32; 3], points: u32) -> DVec3 {
+fn froxel(
+    (scene, map): (&Scene, Option<&PortData>),
+    grid: &Grid,
+    columns: [u32; 2],
+    at: [u32; 3],
+    points: u32,
+) -> DVec3 {
     let size = DVec2::new(f64::from(columns[0]), f64::from(columns[1]));
     let (start, end) = (grid.border(at[2]), grid.border(at[2] + 1));
     let parts = f64::from(points.pow(3));

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use tyndall_plugin::{PortData, ReferenceInput};
 use tyndall_plugin::descriptor::ParamValue;
+use tyndall_plugin::{PortData, ReferenceInput};
 use tyndall_shaders::lights::incident;
 use tyndall_shaders::medium::transmittance;
 use tyndall_shaders::phase::phase;
