@@ -85,8 +85,9 @@ impl<'p> Measured<'p> {
         let (mut frame, mut set_up) = (Some(0.0), Some(0.0));
         for pass in self.own.iter().filter(|pass| is_first || !pass.is_set_up) {
             let timing = Timing::Pass(pass.position as usize);
-            let options = FrameOptions { frame: 0, everything: pass.is_set_up, timing, cpu_times: false };
-            let report = self.running.frame(options)?;
+            // what it reads is kept, so that it runs alone
+            self.running.executor.forget(pass.position);
+            let report = self.running.frame(FrameOptions { timing, ..FrameOptions::default() })?;
             let sum = if pass.is_set_up { &mut set_up } else { &mut frame };
             *sum = sum.zip(report.gpu_us).map(|(sum, us)| sum + us);
         }

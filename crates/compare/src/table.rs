@@ -95,7 +95,7 @@ fn pipes(methods: &[Method], rows: &[Row]) -> String {
 fn cells(methods: &[Method], rows: &[Row]) -> Vec<[String; 11]> {
     let row = |(method, row): (&Method, &Row)| {
         let bytes = |bytes: u64| if bytes == 0 { "-".to_owned() } else { tyndall_gpu::bytes(bytes) };
-        let once = row.cost.set_up_us.filter(|_| row.cost.set_up_bytes > 0);
+        let once = row.cost.set_up_us.filter(|us| *us > 0.0);
         [
             method.name.clone(),
             error(row.p50),
