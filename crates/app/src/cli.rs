@@ -310,6 +310,10 @@ pub(crate) struct Mutants {
     /// Leave goldens out: properties, references on the CPU and relations alone
     #[arg(long)]
     pub no_goldens: bool,
+    /// Show each mutant to every test that runs the pass, though one kills it: another may lay it at another pass. Takes
+    /// several times as long
+    #[arg(long)]
+    pub every_test: bool,
     /// The part that must be killed
     #[arg(long, value_name = "PERCENT", default_value_t = 95.0)]
     pub at_least: f64,

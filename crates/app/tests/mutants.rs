@@ -19,6 +19,7 @@ fn a_sample_of_mutants_is_killed() {
         per_pass: 2,
         seed: 1,
         goldens: false,
+        every_test: true,
         untested: false,
     };
     let findings = hunt(&mut session, &request, &mut |_| {}).unwrap_or_else(|trouble| panic!("{trouble:?}"));

@@ -1,9 +1,12 @@
 //! Blessing: what was rendered becomes what is expected.
 
+use std::collections::BTreeMap;
+
 use crate::adapter::AdapterClass;
+use crate::blame::Upstream;
 use crate::golden::{self, Record};
 use crate::options::Options;
-use crate::outcome::{GOLDEN, Outcome, Problem, State};
+use crate::outcome::{GOLDEN, Outcome, PortOutcome, Problem, State};
 use crate::run::Ready;
 use crate::session::Rendered;
 
@@ -19,14 +22,15 @@ pub(crate) fn run(
     let folder = ready.file.goldens();
     let mut records = ready.records.clone();
     let mut blessed = Vec::new();
-    for port in &mut outcome.ports {
+    let refused = refused(ready, outcome);
+    for port in outcome.ports.iter_mut().filter(|port| ready.chosen.contains(&port.name)) {
         let Some(at) = port.checks.iter().position(|check| check.what == GOLDEN) else { continue };
         let judged = &port.checks[at].judgement;
         if judged.passed && port.stale.is_empty() {
             continue;
         }
-        if port.checks.iter().any(|check| check.what != GOLDEN && !check.judgement.passed) {
-            outcome.problems.push(Problem::NotBlessed(format!("{}: something else does not hold of it", port.name)));
+        if let Some(why) = refused.get(&port.pass) {
+            outcome.problems.push(Problem::NotBlessed(format!("{}: {why}", port.name)));
             continue;
         }
         let before = records.get(&port.key);
@@ -73,6 +77,34 @@ pub(crate) fn run(
         drop_orphans(ready, &mut records, outcome, &mut blessed);
     }
     outcome.blessed = blessed;
+}
+
+/// Passes whose ports are not to be blessed, each with the reason: what is wrong for another reason than its golden does
+/// not become right by it, and neither does what is made from it.
+fn refused(ready: &Ready, outcome: &Outcome) -> BTreeMap<String, String> {
+    let plan = &ready.plan;
+    let wrong = |port: &&PortOutcome| port.checks.iter().any(|check| check.what != GOLDEN && !check.judgement.passed);
+    let ports = outcome.ports.iter().filter(wrong).map(|port| port.pass.clone());
+    let relations = outcome.relations.iter().filter(|relation| !relation.judgement.passed);
+    let mut refused: BTreeMap<String, String> = ports
+        .chain(relations.map(|relation| relation.pass.clone()))
+        .map(|pass| (pass, "something else does not hold of its pass".to_owned()))
+        .collect();
+    let upstream = Upstream::of(plan);
+    for position in 0..plan.passes.len() {
+        let name = |pass: usize| plan.pass_name(pass as u32);
+        let before = upstream.passes(plan, position).map(name).find(|pass| refused.contains_key(*pass));
+        if let Some(before) = before.map(str::to_owned) {
+            let why = format!("it is made from what `{before}` writes, of which something else does not hold");
+            refused.entry(name(position).to_owned()).or_insert(why);
+        }
+    }
+    if !outcome.robustness.is_empty() {
+        let all = (0..plan.passes.len() as u32).map(|pass| plan.pass_name(pass).to_owned());
+        refused
+            .extend(all.map(|pass| (pass, "not every port comes out the same when it is rendered again".to_owned())));
+    }
+    refused
 }
 
 fn drop_orphans(ready: &Ready, records: &mut golden::Records, outcome: &mut Outcome, blessed: &mut Vec<String>) {

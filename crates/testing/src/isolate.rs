@@ -9,24 +9,36 @@ use tyndall_graph::{PortRef, Resource};
 use tyndall_render::Error;
 
 use crate::adapter::AdapterClass;
-use crate::file::MOST_TEXELS;
+use crate::blame::{Upstream, attribute};
+use crate::file::{MOST_TEXELS, Property, Tapped};
 use crate::golden;
 use crate::judge::Judge;
 use crate::options::Options;
-use crate::outcome::{Outcome, Problem, State};
+use crate::outcome::{Outcome, Problem};
 use crate::picture::Picture;
-use crate::run::Ready;
+use crate::property;
+use crate::run::{Ready, find};
 use crate::session::Session;
 
-/// Runs each pass that is looked at alone, and judges its ports. What one pass does to another cannot show: every
-/// failure is that of its own pass.
+/// Runs each pass that is looked at alone, and judges its ports. What one pass does to another cannot show, as far as
+/// there are goldens to feed it: where an input has none, the passes before run along, and what they do wrong is theirs.
 pub(crate) fn run(session: &mut Session, ready: &Ready, options: &Options, outcome: &mut Outcome) -> Result<(), Error> {
-    let mut passes: Vec<u32> = ready.tapped.iter().map(|tapped| tapped.port.pass).collect();
+    let chosen = ready.tapped.iter().filter(|tapped| ready.chosen.contains(&tapped.name));
+    let mut passes: Vec<u32> = chosen.map(|tapped| tapped.port.pass).collect();
     passes.dedup();
+    let mut upstream = Upstream::nothing(&ready.plan);
     for pass in passes {
         for frame in &ready.file.frames {
             match inputs(ready, pass, *frame) {
-                Ok(inputs) => run_pass(session, ready, (pass, *frame), &inputs, options, outcome)?,
+                Ok(inputs) => {
+                    if let Some(position) = ready.plan.position(pass) {
+                        let fed = ready.inputs(pass).into_iter().map(|(_, port)| port);
+                        let rendered = fed.filter(|port| !inputs.contains_key(port));
+                        let rendered: Vec<u32> = rendered.filter_map(|port| ready.plan.planned(port)).collect();
+                        upstream.ran_with(&ready.plan, position, &rendered);
+                    }
+                    run_pass(session, ready, (pass, *frame), &inputs, options, outcome)?;
+                }
                 Err(why) => {
                     let name = &ready.loaded.graph.pass(pass).name;
                     outcome.problems.push(Problem::NotIsolated(format!("`{name}`: {why}")));
@@ -34,6 +46,10 @@ pub(crate) fn run(session: &mut Session, ready: &Ready, options: &Options, outco
             }
         }
     }
+    if !ready.file.relations.is_empty() {
+        outcome.left_out.push("relations compare runs of the whole graph: --isolate does not ask them".to_owned());
+    }
+    attribute(&ready.plan, &upstream, outcome);
     Ok(())
 }
 
@@ -45,7 +61,8 @@ fn run_pass(
     options: &Options,
     outcome: &mut Outcome,
 ) -> Result<(), Error> {
-    let tapped: Vec<_> = ready.tapped.iter().filter(|tapped| tapped.port.pass == pass).collect();
+    let of_pass = |tapped: &&Tapped| tapped.port.pass == pass && ready.chosen.contains(&tapped.name);
+    let tapped: Vec<_> = ready.tapped.iter().filter(of_pass).collect();
     // What is not given is rendered, and judged with: a reference on the CPU is asked about what the pass was fed.
     let fed = ready.inputs(pass).into_iter().map(|(_, port)| port).filter(|port| !inputs.contains_key(port));
     let ports: Vec<PortRef> = tapped.iter().map(|tapped| tapped.port).chain(fed).collect();
@@ -53,17 +70,29 @@ fn run_pass(
     rendered.ports.extend(inputs.iter().map(|(port, data)| (*port, data.clone())));
     let judge = Judge { ready, options, adapter: AdapterClass::of(session.gpu()), answers: &session.answers };
     for tapped in tapped {
-        let mut port = judge.port(tapped, &rendered);
-        // Nothing was rendered upstream, so nothing can be said of when the golden was made; and a property about a
-        // port that is no input is for the whole graph.
+        // A property about a port that is neither the pass's own nor fed to it is for the whole graph.
+        let (asked, left_out): (Vec<Property>, Vec<Property>) =
+            tapped.properties.iter().cloned().partition(|property| {
+                let mut named = property.ports().iter().map(|name| find(&ready.loaded.graph, name));
+                named.all(|port| port.is_some_and(|port| rendered.ports.contains_key(&port)))
+            });
+        outcome.left_out.extend(left_out.iter().map(|property| {
+            format!("{} {} is about a port that its pass does not read", tapped.name, property::name(property))
+        }));
+        let mut port = judge.port(&Tapped { properties: asked, ..tapped.clone() }, &rendered);
+        // Nothing was rendered upstream, so nothing can be said of when the golden was made.
         port.stale.clear();
-        port.checks.retain(|check| check.judgement.passed || check.also_on.is_empty());
-        if !port.passed() {
-            port.state = State::Guilty;
+        for check in &mut port.checks {
+            check.also_on.retain(|other| *other != port.pass && !given(ready, inputs, other));
         }
         outcome.ports.push(port);
     }
     Ok(())
+}
+
+/// What a pass of this name writes was given.
+fn given(ready: &Ready, inputs: &BTreeMap<PortRef, Arc<PortData>>, pass: &str) -> bool {
+    inputs.keys().any(|port| ready.loaded.graph.pass(port.pass).name == pass)
 }
 
 /// The inputs of a pass, from goldens.

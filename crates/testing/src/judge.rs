@@ -1,4 +1,4 @@
-//! What was rendered, held against everything that a test says, and whose fault it is where that does not hold.
+//! What was rendered, held against everything that a test says.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use crate::file::{MOST_TEXELS, Property, Tapped};
 use crate::golden;
 use crate::metric::Judgement;
 use crate::options::Options;
-use crate::outcome::{Check, GOLDEN, Outcome, PortOutcome, State};
+use crate::outcome::{Check, GOLDEN, PortOutcome, Reach, State};
 use crate::picture::Picture;
 use crate::property;
 use crate::run::{Ready, find, inputs_of};
@@ -52,7 +52,8 @@ impl Judge<'_> {
             metric: tapped.golden.as_ref().map(|golden| golden.metric(self.adapter)),
         };
         let Some(actual) = outcome.actual.clone() else {
-            outcome.checks.push(Check::new("rendered", Judgement::failed("it was not rendered".to_owned())));
+            let judgement = Judgement::failed("it was not rendered".to_owned());
+            outcome.checks.push(Check::new("rendered", Reach::EveryNumber, judgement));
             return outcome;
         };
         let with_goldens = !self.options.without_goldens && self.options.size.is_none();
@@ -77,29 +78,29 @@ impl Judge<'_> {
         }
         let thinned = actual.thinned(MOST_TEXELS);
         let actual = outcome.actual.insert(thinned);
-        let judgement = match golden::read(&self.ready.file.goldens(), &outcome.key, records, actual) {
+        let check = match golden::read(&self.ready.file.goldens(), &outcome.key, records, actual) {
             Ok(expected) => {
                 let judgement = golden.metric(self.adapter).judge(actual, &expected);
                 outcome.expected = Some(expected);
-                judgement
+                Check::new(GOLDEN, Reach::EveryNumber, judgement)
             }
-            Err(missing) => Judgement::failed(missing.to_string()),
+            Err(missing) => Check::new(GOLDEN, Reach::Nothing, Judgement::failed(missing.to_string())),
         };
-        outcome.checks.push(Check::new(GOLDEN, judgement));
+        outcome.checks.push(check);
     }
 
     fn reference(&self, tapped: &Tapped, actual: &Picture, outcome: &mut PortOutcome) {
         let Some(reference) = &tapped.reference else { return };
         let what = format!("reference ({})", reference.provenance);
-        let judgement = match tyndall_image::read(&reference.file) {
+        outcome.checks.push(match tyndall_image::read(&reference.file) {
             Ok(image) => {
                 let wanted = actual.compared().channels;
                 let expected = Picture::new(image.first_channels(wanted), actual.class);
-                reference.metric.judge(&Picture::new(actual.compared(), actual.class), &expected)
+                let judgement = reference.metric.judge(&Picture::new(actual.compared(), actual.class), &expected);
+                Check::new(&what, Reach::EveryNumber, judgement)
             }
-            Err(error) => Judgement::failed(error.to_string()),
-        };
-        outcome.checks.push(Check::new(&what, judgement));
+            Err(error) => Check::new(&what, Reach::Nothing, Judgement::failed(error.to_string())),
+        });
     }
 
     fn property(&self, property: &Property, tapped: &Tapped, actual: &Picture, rendered: &Rendered) -> Check {
@@ -109,7 +110,8 @@ impl Judge<'_> {
         let judgement = property::judge(property, actual, &other, &computed);
         let ports = property.ports().iter().filter_map(|name| find(graph, name));
         let also_on = ports.map(|port| graph.pass(port.pass).name.clone()).collect();
-        Check { what: property::name(property), judgement, also_on }
+        let reach = if property.is_whole() { Reach::EveryNumber } else { Reach::Something };
+        Check { also_on, ..Check::new(&property::name(property), reach, judgement) }
     }
 
     fn computed(&self, tapped: &Tapped, actual: &Picture, rendered: &Rendered) -> Result<Picture, String> {
@@ -181,66 +183,7 @@ impl Computing<'_> {
 }
 
 impl Check {
-    pub(crate) fn new(what: &str, judgement: Judgement) -> Self {
-        Self { what: what.to_owned(), judgement, also_on: Vec::new() }
-    }
-}
-
-/// Says whose fault each failure is: that of the first pass which fails though all that it reads holds. What depends on
-/// a pass that fails is inherited. A check that names other passes falls with these; a relation is weighed like a check.
-pub(crate) fn attribute(plan: &Plan, outcome: &mut Outcome) {
-    let mut blame = Blame::new(plan);
-    for port in &outcome.ports {
-        let failed = || port.checks.iter().filter(|check| !check.judgement.passed);
-        blame.failing(&port.pass, failed().any(|check| check.also_on.is_empty()));
-    }
-    for relation in outcome.relations.iter().filter(|relation| !relation.judgement.passed) {
-        blame.failing(&relation.pass, true);
-    }
-    // Only now is it known what a check about other passes falls with; a pass that nothing excuses fails by itself.
-    for port in outcome.ports.iter().filter(|port| !port.passed()) {
-        let mut failed = port.checks.iter().filter(|check| !check.judgement.passed);
-        let excused = failed.all(|check| blame.falls_with(&port.pass, &check.also_on));
-        blame.failing(&port.pass, !excused);
-    }
-    for port in outcome.ports.iter_mut().filter(|port| !port.passed()) {
-        let mut failed = port.checks.iter().filter(|check| !check.judgement.passed);
-        let excused = failed.all(|check| blame.falls_with(&port.pass, &check.also_on));
-        port.state = if excused { State::Inherited } else { State::Guilty };
-    }
-    for relation in outcome.relations.iter_mut().filter(|relation| !relation.judgement.passed) {
-        let excused = blame.falls_with(&relation.pass, &[]);
-        relation.state = if excused { State::Inherited } else { State::Guilty };
-    }
-}
-
-/// Which passes of a plan fail by themselves.
-struct Blame<'a> {
-    plan: &'a Plan,
-    upstream: Vec<std::collections::BTreeSet<usize>>,
-    failing: Vec<bool>,
-}
-
-impl<'a> Blame<'a> {
-    fn new(plan: &'a Plan) -> Self {
-        Self { plan, upstream: crate::run::upstream(plan), failing: vec![false; plan.passes.len()] }
-    }
-
-    fn position(&self, name: &str) -> Option<usize> {
-        (0..self.plan.passes.len()).find(|pass| self.plan.pass_name(*pass as u32) == name)
-    }
-
-    fn failing(&mut self, pass: &str, fails: bool) {
-        if let Some(position) = self.position(pass) {
-            self.failing[position] |= fails;
-        }
-    }
-
-    /// Whether something upstream of a pass fails, or one of these others, or something upstream of one.
-    fn falls_with(&self, pass: &str, also_on: &[String]) -> bool {
-        let Some(pass) = self.position(pass) else { return false };
-        let others = also_on.iter().filter_map(|name| self.position(name)).filter(|other| *other != pass);
-        let involved = others.flat_map(|other| self.upstream[other].iter().copied().chain([other]));
-        self.upstream[pass].iter().copied().chain(involved).any(|other| other != pass && self.failing[other])
+    pub(crate) fn new(what: &str, reach: Reach, judgement: Judgement) -> Self {
+        Self { what: what.to_owned(), judgement, reach, also_on: Vec::new() }
     }
 }

@@ -27,6 +27,7 @@
 
 mod adapter;
 mod answers;
+mod blame;
 mod bless;
 pub mod codes;
 mod digest;
@@ -61,7 +62,9 @@ pub use file::TestFile;
 pub use fingerprint::Fingerprint;
 pub use metric::{Judgement, Metric};
 pub use options::{Options, Robustness};
-pub use outcome::{Check, GOLDEN, Outcome, PassOutcome, PortOutcome, Problem, RelationOutcome, State};
+pub use outcome::{
+    Check, GOLDEN, Outcome, PassOutcome, PortOutcome, Problem, Reach, RelationOutcome, State, Suspicion,
+};
 pub use picture::Picture;
 pub use report::Report;
 pub use session::{Plugins, Rendered, Saved, Session, Variation};

@@ -23,6 +23,10 @@ pub struct Outcome {
     pub relations: Vec<RelationOutcome>,
     /// What came out different in another order, with other memory, or when it was done again.
     pub robustness: Vec<String>,
+    /// What the passes that are named were made from, and nothing holds.
+    pub suspicions: Vec<Suspicion>,
+    /// What the test says and was not asked, with the reason.
+    pub left_out: Vec<String>,
     /// What stood in the way of judging, and goldens that nobody claims.
     pub problems: Vec<Problem>,
     /// Mistakes that leave a meaning.
@@ -50,6 +54,15 @@ pub struct PassOutcome {
     pub bytes: u64,
     /// GPU time alone, where it was measured.
     pub microseconds: Option<f64>,
+}
+
+/// Ports that a pass at fault was made from, and in which no check holds every number: the mistake may be there.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Suspicion {
+    /// The pass that is named.
+    pub pass: String,
+    /// `pass.port`, in the order in which the passes ran.
+    pub unheld: Vec<String>,
 }
 
 /// What stood in the way of judging.
@@ -103,6 +116,8 @@ pub enum State {
     Guilty,
     /// Something does not hold, and neither does something that the pass reads.
     Inherited,
+    /// What it was to be held against is missing, and that alone does not hold.
+    Unjudged,
 }
 
 /// One thing that was asked of a port.
@@ -112,8 +127,21 @@ pub struct Check {
     pub what: String,
     /// What was found.
     pub judgement: Judgement,
+    /// How much it says of the port.
+    pub reach: Reach,
     /// Other passes that it depends on, beside those upstream.
     pub also_on: Vec<String>,
+}
+
+/// How much a check says of a port.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reach {
+    /// What every number is: a golden, another renderer's picture, the reference on the CPU, other ports.
+    EveryNumber,
+    /// Something about the numbers, such as their range.
+    Something,
+    /// Nothing, since what it compares with is missing.
+    Nothing,
 }
 
 /// What was found about a relation and a port.
@@ -214,8 +242,14 @@ impl Outcome {
                 "  first diverging pass: `{first}`{}\n",
                 if kind.is_empty() { String::new() } else { format!(" ({kind})") }
             );
+            if let Some(Suspicion { unheld, .. }) = self.suspicions.iter().find(|suspicion| suspicion.pass == *first) {
+                let ports = unheld.join("`, `");
+                text +=
+                    &format!("    or what it was made from: nothing holds `{ports}`; a golden or CpuReference would\n");
+            }
         }
-        for port in self.ports.iter().filter(|port| port.state == State::Guilty) {
+        let to_tell = |state| matches!(state, State::Guilty | State::Unjudged);
+        for port in self.ports.iter().filter(|port| to_tell(port.state)) {
             text += &self.port_text(port);
         }
         for relation in self.relations.iter().filter(|relation| relation.state == State::Guilty) {

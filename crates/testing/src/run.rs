@@ -11,9 +11,10 @@ use tyndall_plugin::Registry;
 use tyndall_render::{Error, Loaded, load};
 
 use crate::adapter::AdapterClass;
+use crate::blame::{Upstream, attribute};
 use crate::file::{Change, Tapped, TestFile, check, matches, read};
 use crate::golden::{self, Records};
-use crate::judge::{Computing, Judge, attribute};
+use crate::judge::{Computing, Judge};
 use crate::metric::Judgement;
 use crate::options::Options;
 use crate::outcome::{Outcome, PassOutcome, PortOutcome, Problem, RelationOutcome, State};
@@ -27,7 +28,10 @@ pub(crate) struct Ready {
     pub registry: Arc<Registry>,
     pub loaded: Loaded,
     pub plan: Plan,
+    /// What is judged, in the order of the plan.
     pub tapped: Vec<Tapped>,
+    /// Of these, what somebody wants to know of. The others are what that was made from.
+    pub chosen: BTreeSet<String>,
     pub records: Records,
 }
 
@@ -74,11 +78,14 @@ impl Session {
             if options.size.is_none() && !decided {
                 outcome.relations = self.relations(&ready, &rendered, options)?;
             }
-            attribute(&ready.plan, outcome);
+            attribute(&ready.plan, &Upstream::of(&ready.plan), outcome);
             robust::run(self, &ready, &rendered, options, outcome)?;
             if options.bless {
-                bless::run(&ready, &rendered, AdapterClass::of(self.gpu()), options, outcome);
+                bless::run(&ready, &rendered, adapter, options, outcome);
             }
+            // What lies before the chosen ports was judged for their sake: only what excuses them is told.
+            let chosen = |port: &PortOutcome| ready.chosen.contains(&port.name) || port.state != State::Passed;
+            outcome.ports.retain(chosen);
         }
         if options.size.is_none() && !options.without_goldens {
             let claimed = claimed(&ready);
@@ -94,6 +101,13 @@ impl Session {
             }
         }
         Ok(())
+    }
+
+    /// The registry of a test, and the kinds of the passes that it runs.
+    pub(crate) fn runs(&mut self, path: &Path) -> Result<(Arc<Registry>, BTreeSet<String>), Error> {
+        let ready = self.ready(path, &Options::default(), &mut Outcome::default())?;
+        let kinds = passes(&ready.plan).into_iter().map(|pass| pass.kind).collect();
+        Ok((ready.registry, kinds))
     }
 
     fn ready(&mut self, path: &Path, options: &Options, outcome: &mut Outcome) -> Result<Ready, Error> {
@@ -118,11 +132,13 @@ impl Session {
         let plan = Self::plan(&loaded.graph, Roots::Ports(roots), Variation::PLAIN)?;
         let records = Records::read(&file.goldens())?;
         let mut tapped = tapped;
-        if let Some(pattern) = &options.tap {
-            tapped.retain(|tapped| matches(pattern, &tapped.name));
-        }
         tapped.sort_by_key(|tapped| plan.planned(tapped.port));
-        Ok(Ready { file, registry, loaded, plan, tapped, records })
+        let wanted = |tapped: &&Tapped| options.tap.as_ref().is_none_or(|pattern| matches(pattern, &tapped.name));
+        let chosen: Vec<&Tapped> = tapped.iter().filter(wanted).collect();
+        let needed = needed(graph, &plan, &chosen);
+        let chosen = chosen.into_iter().map(|tapped| tapped.name.clone()).collect();
+        tapped.retain(|tapped| needed.contains(&tapped.port));
+        Ok(Ready { file, registry, loaded, plan, tapped, chosen, records })
     }
 
     fn relations(&mut self, ready: &Ready, own: &[Rendered], options: &Options) -> Result<Vec<RelationOutcome>, Error> {
@@ -212,6 +228,20 @@ pub(crate) fn inputs_of(plan: &Plan, pass: u32) -> Vec<(usize, PortRef)> {
     sources.filter_map(|(index, source)| Some((index, plan.ports[(*source)? as usize].port))).collect()
 }
 
+/// These ports, and all that they were made from and are held against.
+fn needed(graph: &Graph, plan: &Plan, chosen: &[&Tapped]) -> BTreeSet<PortRef> {
+    let upstream = Upstream::of(plan);
+    let named = chosen.iter().flat_map(|tapped| &tapped.properties).flat_map(|property| property.ports());
+    let ports = chosen.iter().map(|tapped| tapped.port).chain(named.filter_map(|name| find(graph, name)));
+    let mut needed = BTreeSet::new();
+    for port in ports {
+        needed.insert(port);
+        let before = plan.position(port.pass).map(|position| upstream.ports(position as usize));
+        needed.extend(before.into_iter().flatten().map(|port| plan.ports[*port as usize].port));
+    }
+    needed
+}
+
 impl Tapped {
     fn asks_cpu(&self) -> bool {
         self.properties.iter().any(|property| matches!(property, crate::file::Property::CpuReference { .. }))
@@ -251,20 +281,4 @@ fn passes(plan: &Plan) -> Vec<PassOutcome> {
         microseconds: None,
     };
     (0..plan.passes.len() as u32).map(pass).collect()
-}
-
-/// Positions upstream of each position.
-pub(crate) fn upstream(plan: &Plan) -> Vec<BTreeSet<usize>> {
-    let mut upstream: Vec<BTreeSet<usize>> = Vec::with_capacity(plan.passes.len());
-    for pass in 0..plan.passes.len() as u32 {
-        let mut found = BTreeSet::new();
-        for source in plan.sources(pass).iter().flatten() {
-            if let Some(producer) = plan.ports[*source as usize].pass {
-                found.insert(producer as usize);
-                found.extend(&upstream[producer as usize]);
-            }
-        }
-        upstream.push(found);
-    }
-    upstream
 }

@@ -34,12 +34,18 @@ fn test(outcome: &Outcome) -> Value {
         "first_diverging_pass": outcome.guilty().first(),
         "diverging": outcome.guilty(),
         "inherited": outcome.inherited(),
+        "suspicions": outcome.suspicions.iter().map(suspicion).collect::<Vec<_>>(),
+        "left_out": outcome.left_out,
         "ports": outcome.ports.iter().map(port).collect::<Vec<_>>(),
         "relations": outcome.relations.iter().map(relation).collect::<Vec<_>>(),
         "passes": outcome.passes.iter().map(pass).collect::<Vec<_>>(),
         "robustness": outcome.robustness,
         "text": outcome.text(),
     })
+}
+
+fn suspicion(suspicion: &crate::outcome::Suspicion) -> Value {
+    json!({ "pass": suspicion.pass, "unheld": suspicion.unheld })
 }
 
 fn pass(pass: &crate::outcome::PassOutcome) -> Value {
@@ -77,6 +83,7 @@ fn state(state: State) -> &'static str {
         State::Passed => "passed",
         State::Guilty => "diverged",
         State::Inherited => "inherited",
+        State::Unjudged => "unjudged",
     }
 }
 

@@ -58,7 +58,8 @@ fn reasons(source: &Arc<Source>) -> Diagnostics {
     let search = vec![SearchPath { path: folder.path().join("plugins"), required: true }];
     let mut session = Session::new(Vec::new(), search, None).unwrap_or_else(|error| panic!("{error}"));
     let tests = vec![folder.path().join("a.test.ron")];
-    let request = Hunt { tests, filter: String::new(), per_pass: 1, seed: 1, goldens: false, untested: true };
+    let request =
+        Hunt { tests, filter: String::new(), per_pass: 1, seed: 1, goldens: false, every_test: false, untested: true };
     match hunt(&mut session, &request, &mut |_| {}) {
         Err(Trouble::Error(Error::Mistakes(mistakes))) => {
             renamed(mistakes, &format!("{}/plugins/pair/mutants.ron", folder.path().display()), source.name())

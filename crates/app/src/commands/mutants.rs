@@ -24,6 +24,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Mutants) -> Result<()
         per_pass: verb.per_pass as usize,
         seed: verb.seed,
         goldens: !verb.no_goldens,
+        every_test: verb.every_test,
         untested: verb.paths.is_empty(),
     };
     let search = plugins::search_paths(arguments, &[]);

@@ -191,6 +191,9 @@ fn told(outcome: &Outcome, earlier: &mut Told) {
     if stale > 0 {
         terminal::line(&format!("  {stale} goldens are stale, and still right: --bless renews them"));
     }
+    for line in &outcome.left_out {
+        terminal::line(&format!("  left out: {line}"));
+    }
     if !outcome.warnings.is_empty() {
         terminal::error(&render_text(&outcome.warnings, terminal::color()));
     }

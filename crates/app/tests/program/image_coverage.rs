@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use tyndall_document::Diagnostics;
-use tyndall_testing::file::{check, read};
+use tyndall_graph::{PlanOptions, Roots, plan};
+use tyndall_testing::file::{Property, Tapped, check, read};
 use tyndall_testing::{TestFile, discover};
 
 fn root() -> PathBuf {
@@ -56,4 +57,30 @@ fn every_shipped_graph_has_an_image_test() {
     for graph in graphs {
         assert!(tested.contains(&graph.canonicalize().unwrap()), "{} has no image test", graph.display());
     }
+}
+
+/// Whatever a pass of a test reads is held in every number by the same test, so that a mistake is laid at the pass that
+/// made it and not at the next one that somebody looks at.
+#[test]
+fn every_port_that_is_read_is_held() {
+    let registry = tyndall_render::registry(tyndall::shipped().iter().map(|plugin| plugin()).collect(), &[]).unwrap();
+    let mut unheld = Vec::new();
+    for file in tests() {
+        let mut out = Diagnostics::default();
+        let loaded = tyndall_render::load(&file.request, &registry, &mut out).unwrap();
+        let has_reference = |pass: &str| registry.pass(pass).is_some_and(|pass| pass.reference.is_some());
+        let tapped = check(&file, &loaded.graph, &has_reference, &mut out);
+        let roots = Roots::Ports(tapped.iter().map(|tapped| tapped.port).collect());
+        let plan = plan(&loaded.graph, &PlanOptions { roots, ..PlanOptions::new(loaded.graph.size) }).unwrap();
+        let is_held = |port: u32| {
+            let holds = |tapped: &&Tapped| tapped.golden.is_some() || tapped.properties.iter().any(Property::is_whole);
+            tapped.iter().filter(holds).any(|tapped| plan.planned(tapped.port) == Some(port))
+        };
+        let read: BTreeSet<u32> =
+            (0..plan.passes.len() as u32).flat_map(|pass| plan.sources(pass).iter().flatten().copied()).collect();
+        let written = read.into_iter().filter(|port| plan.ports[*port as usize].pass.is_some());
+        let names = written.filter(|port| !is_held(*port)).map(|port| plan.port_name(port));
+        unheld.extend(names.map(|name| format!("{}: {name}", file.stem())));
+    }
+    assert!(unheld.is_empty(), "{unheld:#?}");
 }

@@ -156,6 +156,11 @@ pub enum Property {
 }
 
 impl Property {
+    /// It says what every number is, and so leaves no room for a mistake.
+    pub fn is_whole(&self) -> bool {
+        matches!(self, Property::Equal { .. } | Property::Sum { .. } | Property::CpuReference { .. })
+    }
+
     /// The other ports that it names.
     pub fn ports(&self) -> &[String] {
         match self {

@@ -45,6 +45,9 @@ impl Figures {
     }
 }
 
+/// Fewer places than these are told: a score of few mutants says little.
+const FEW: usize = 10;
+
 /// A table of the passes, for people.
 pub fn table(findings: &[PassFindings]) -> Vec<String> {
     let width = findings.iter().map(|of_pass| of_pass.pass.len()).max().unwrap_or(0);
@@ -55,11 +58,12 @@ pub fn table(findings: &[PassFindings]) -> Vec<String> {
         let figures = Figures::of([of_pass]);
         let Figures { made, killed, without_goldens, misnamed, survived, .. } = figures;
         let seconds = of_pass.took.as_secs_f64();
+        let few = if *sites < FEW { "  (no more mistakes can be made in it)" } else { "" };
         lines.push(if *sites == 0 {
             format!("{pass:width$}  {tests:5}       -  no WGSL of its own: what it does stands in Rust")
         } else {
             format!(
-                "{pass:width$}  {tests:5}  {sites:6}  {made:4}  {killed:6}  {without_goldens:15}  {misnamed:10}  {survived:8}  {seconds:7.1}"
+                "{pass:width$}  {tests:5}  {sites:6}  {made:4}  {killed:6}  {without_goldens:15}  {misnamed:10}  {survived:8}  {seconds:7.1}{few}"
             )
         });
     }

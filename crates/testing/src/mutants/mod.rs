@@ -46,6 +46,9 @@ pub struct Hunt {
     pub seed: u64,
     /// Show mutants to goldens too.
     pub goldens: bool,
+    /// Show each mutant to every test, with goldens and without, though one of them kills it: another may lay it at another
+    /// pass.
+    pub every_test: bool,
     /// Also report passes that no test runs.
     pub untested: bool,
 }
@@ -185,15 +188,17 @@ struct Tested {
 fn baseline(session: &mut Session, hunt: &Hunt) -> Result<Baseline, Trouble> {
     let mut found = Baseline { passes: BTreeMap::new(), tests: Vec::new() };
     for path in &hunt.tests {
+        let (registry, kinds) = session.runs(path)?;
+        for pass in registry.passes() {
+            found.passes.entry(pass.descriptor.name.clone()).or_insert_with(|| pass.clone());
+        }
+        if !kinds.iter().any(|kind| kind.contains(&hunt.filter)) {
+            continue;
+        }
         let outcome = session.run(path, &Options { without_goldens: !hunt.goldens, ..Options::default() });
         if !outcome.passed() {
             return Err(Trouble::Failing(Box::new(outcome)));
         }
-        let registry = session.registry(&outcome.graph)?;
-        for pass in registry.passes() {
-            found.passes.entry(pass.descriptor.name.clone()).or_insert_with(|| pass.clone());
-        }
-        let kinds = outcome.passes.iter().map(|pass| pass.kind.clone()).collect();
         // The second time everything is known that does not change, as it is with mutants.
         let again = session.run(path, &Options { without_goldens: !hunt.goldens, ..Options::default() });
         found.tests.push(Tested { path: path.clone(), kinds, took: again.took });
@@ -243,7 +248,14 @@ fn of_pass(session: &mut Session, hunt: &Hunt, pass: &RegistryPass, tests: &[&Pa
     };
     let places: Vec<_> = sites.iter().map(|(_, _, mutation)| (mutation.function.as_str(), mutation.kind)).collect();
     let mut draw = Draw::new(&places, &name, hunt.seed);
-    let mut trials = Trials { session, pass: &name, fingerprint: pass.fingerprint, tests, goldens: hunt.goldens };
+    let mut trials = Trials {
+        session,
+        pass: &name,
+        fingerprint: pass.fingerprint,
+        tests,
+        goldens: hunt.goldens,
+        every_test: hunt.every_test,
+    };
     let bounds = pass.shaders().map(|(file, shader)| Ok((file.to_owned(), trials.bound(file, shader)?)));
     let bounds = bounds.collect::<Result<BTreeMap<_, _>, Trouble>>()?;
     while findings.mutants.len() < hunt.per_pass

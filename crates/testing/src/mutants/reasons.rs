@@ -89,5 +89,9 @@ fn reason(decoder: &mut Decoder<'_>, pass: &str, node: &Node) -> Option<Reason> 
     let mut text = |name: &str| fields.required(decoder, name).and_then(|node| decoder.text(node)).map(str::to_owned);
     let (function, change, text) = (text("function"), text("change"), text("reason"));
     let place = decoder.place(node.span);
+    if text.as_ref().is_some_and(|text| text.trim().is_empty()) {
+        let blank = Diagnostic::error(STALE_REASON, place.clone(), "a reason that says nothing");
+        decoder.report(blank.suggest("say why no test can notice it"));
+    }
     Some(Reason { pass: pass.to_owned(), function: function?, change: change?, text: text?, place, killed: false })
 }

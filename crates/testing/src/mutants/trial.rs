@@ -32,6 +32,7 @@ pub(super) struct Trials<'a> {
     /// The quickest first.
     pub tests: &'a [&'a Path],
     pub goldens: bool,
+    pub every_test: bool,
 }
 
 /// What the tests said of a shader.
@@ -66,7 +67,7 @@ impl Trials<'_> {
         self.session.substitute(Substitute::new(self.pass, file, self.fingerprint, mutant));
         let alone = self.ask(false);
         let killed = matches!(&alone, Answer::Verdict(verdict) if verdict.is_killed());
-        let all = if self.goldens && !killed { Some(self.ask(true)) } else { None };
+        let all = if self.goldens && (self.every_test || !killed) { Some(self.ask(true)) } else { None };
         let changed = self.session.restore();
         let mut unnoticed = |answer: &Answer| match answer {
             Answer::Verdict(verdict) => Some(verdict.clone()),
@@ -100,13 +101,14 @@ impl Trials<'_> {
         }
     }
 
-    /// Runs the tests until one fails.
+    /// Runs the tests until one fails, or all of them until one names another pass.
     fn ask(&mut self, goldens: bool) -> Answer {
         if self.tests.is_empty() {
             return Answer::Verdict(Verdict::Untested);
         }
-        let options = Options { without_goldens: !goldens, until_failure: true, ..Options::default() };
+        let options = Options { without_goldens: !goldens, until_failure: !self.every_test, ..Options::default() };
         let mut nearest = (0.0, "nothing".to_owned());
+        let mut killed = None;
         for test in self.tests {
             let outcome = self.session.run(test, &options);
             if outcome.problems.iter().any(|problem| matches!(problem, Problem::Machine(_) | Problem::Mistakes(_))) {
@@ -115,12 +117,14 @@ impl Trials<'_> {
             let named = self.named(&outcome);
             if !named.is_empty() {
                 let test = outcome.name();
-                let right = named.iter().all(|kind| kind == self.pass);
-                return Answer::Verdict(if right {
-                    Verdict::Killed { test }
-                } else {
-                    Verdict::Misnamed { test, named }
-                });
+                if named.iter().any(|kind| kind != self.pass) {
+                    return Answer::Verdict(Verdict::Misnamed { test, named });
+                }
+                if !self.every_test {
+                    return Answer::Verdict(Verdict::Killed { test });
+                }
+                killed.get_or_insert(test);
+                continue;
             }
             for (excess, check) in self.excesses(&outcome) {
                 if excess.is_finite() && excess > nearest.0 {
@@ -128,7 +132,10 @@ impl Trials<'_> {
                 }
             }
         }
-        Answer::Unnoticed { excess: nearest.0, check: nearest.1 }
+        match killed {
+            Some(test) => Answer::Verdict(Verdict::Killed { test }),
+            None => Answer::Unnoticed { excess: nearest.0, check: nearest.1 },
+        }
     }
 
     /// The kinds of the passes that a test blames.

@@ -75,8 +75,9 @@ pub(super) fn test(outcome: &Outcome, folder: &str, shown: &[Shown]) -> String {
     let mut ports: Vec<(&PortOutcome, &Shown)> = outcome.ports.iter().zip(shown).collect();
     ports.sort_by_key(|(port, _)| match port.state {
         State::Guilty => 0,
-        State::Inherited => 1,
-        State::Passed => 2,
+        State::Unjudged => 1,
+        State::Inherited => 2,
+        State::Passed => 3,
     });
     for (port, shown) in ports {
         body += &section(outcome, port, shown, folder);
@@ -180,6 +181,7 @@ fn state(state: State) -> &'static str {
         State::Passed => "passed",
         State::Guilty => "diverged",
         State::Inherited => "inherited",
+        State::Unjudged => "unjudged",
     }
 }
 

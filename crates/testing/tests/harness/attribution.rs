@@ -116,3 +116,87 @@ fn a_filter_looks_only_at_what_it_matches() {
     let outcome = chain.run(&Options { tap: Some("two.*".to_owned()), ..Options::default() });
     assert!(outcome.passed() && outcome.ports.len() == 1, "{}", outcome.text());
 }
+
+/// `three` and `four` fail, and only `three` is at fault: `two`, which has no golden, says nothing of the passes after it.
+#[test]
+fn a_missing_golden_hides_no_failure_after_it() {
+    let chain = Chain::new();
+    std::fs::remove_file(chain.path("chain.goldens/two.result.exr")).unwrap();
+    let unjudged = chain.plain();
+    assert!(unjudged.guilty().is_empty() && !unjudged.passed(), "{}", unjudged.text());
+    chain.set_line("three", BROKEN[1].1);
+    let outcome = chain.plain();
+    assert_eq!((outcome.guilty(), outcome.inherited()), (vec!["three"], vec!["four", "five"]));
+    let text = outcome.text();
+    assert!(text.contains("there is no golden") && text.contains("nothing holds `two.result`"), "{text}");
+}
+
+/// What nothing holds may be wrong without a word: the pass after it is named, and the doubt is said.
+#[test]
+fn a_pass_that_nothing_looks_at_is_suspected() {
+    let chain = Chain::new();
+    chain.test(
+        "\"start.*\": (golden: Exact), \"three.*\": (golden: RelativeRmse(1e-5)), \"two.*\": (properties: [Finite])",
+        "",
+    );
+    let of_chain = ["one.result", "two.result", "four.result", "five.result", "aside.result"];
+    of_chain.iter().for_each(|port| std::fs::remove_file(chain.path(&format!("chain.goldens/{port}.exr"))).unwrap());
+    chain.run(&Options { bless: true, ..Options::default() });
+    assert!(chain.plain().passed() && chain.plain().suspicions.is_empty(), "{}", chain.plain().text());
+    chain.set_line("one", BROKEN[1].1);
+    let outcome = chain.plain();
+    assert_eq!(outcome.guilty(), ["three"]);
+    assert_eq!(outcome.suspicions[0].unheld, ["one.result", "two.result"]);
+    assert!(outcome.text().contains("nothing holds `one.result`, `two.result`"), "{}", outcome.text());
+}
+
+/// Asked for one port, a test still says which pass went wrong, though it stands before that port; and blesses neither.
+#[test]
+fn a_filter_finds_the_pass_before_what_it_matches() {
+    let chain = Chain::new();
+    chain.set_line("two", BROKEN[1].1);
+    let of_four = Options { tap: Some("four.*".to_owned()), ..Options::default() };
+    let outcome = chain.run(&of_four);
+    assert_eq!((outcome.guilty(), outcome.inherited()), (vec!["two"], vec!["three", "four"]), "{}", outcome.text());
+    assert!(outcome.ports.iter().all(|port| port.name != "five.result"));
+}
+
+/// An input that has no golden is rendered, and what is wrong with it is the fault of what rendered it.
+#[test]
+fn alone_what_had_to_run_along_is_to_blame() {
+    let chain = Chain::new();
+    let equal = "\"*\": (golden: RelativeRmse(1e-5))";
+    let whole = chain.path("chain.goldens/goldens.ron");
+    assert!(whole.is_file());
+    // `two` has a check of its own and no golden, so `three` cannot be fed.
+    chain.test(&format!("\"start.*\": (golden: Exact), \"one.*\": (golden: Exact), \"two.*\": (properties: [Equal(port: \"twin.result\", by: RelativeRmse(1e-5))]), {}", equal.replace("*", "three.*")), "");
+    let graph = std::fs::read_to_string(chain.path("chain.graph.ron")).unwrap();
+    let twin = "\"twin\": (use: \"chain.four\", inputs: { \"input\": \"one.result\" }), \"aside\": (use";
+    chain.put(
+        "chain.graph.ron",
+        &graph.replace("\"aside\": (use", twin).replace("outputs: {", "outputs: { \"twin\": \"twin.result\","),
+    );
+    chain.run(&Options { bless: true, ..Options::default() });
+    assert!(chain.isolated().passed(), "{}", chain.isolated().text());
+    chain.set_line("two", BROKEN[1].1);
+    let plain = chain.plain();
+    assert_eq!(plain.guilty(), ["two"], "{}", plain.text());
+    let alone = chain.isolated();
+    // `twin` is no input of `two`, so its check is left out, and said to be: now `two` is the one in doubt.
+    assert_eq!(alone.guilty(), ["three"], "{}", alone.text());
+    assert_eq!(alone.suspicions[0].unheld, ["two.result"]);
+    assert!(
+        alone.left_out.iter().any(|line| line.contains("two.result equal to `twin.result`")),
+        "{:?}",
+        alone.left_out
+    );
+    // With a check that can be asked, it is the only failure.
+    chain.test("\"start.*\": (golden: Exact), \"one.*\": (golden: Exact), \"two.*\": (properties: [Equal(port: \"one.result\", by: RelativeRmse(1e-5))]), \"three.*\": (golden: RelativeRmse(1e-5))", "");
+    let same = "    let value = texel(id.xy);";
+    chain.set_line("two", same);
+    chain.run(&Options { bless: true, ..Options::default() });
+    assert!(chain.isolated().passed(), "{}", chain.isolated().text());
+    chain.set_line("two", BROKEN[1].1);
+    let alone = chain.isolated();
+    assert_eq!((alone.guilty(), alone.inherited()), (vec!["two"], vec!["three"]), "{}", alone.text());
+}

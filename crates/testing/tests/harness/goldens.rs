@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use tyndall_testing::{Options, Outcome};
+use tyndall_testing::{Options, Outcome, State};
 
 use crate::chain::{Chain, LINE};
 
@@ -22,7 +22,8 @@ fn a_missing_golden_fails() {
     let chain = Chain::new();
     fs::remove_file(chain.path("chain.goldens/three.result.exr")).unwrap();
     let outcome = chain.plain();
-    assert_eq!(outcome.guilty(), ["three"]);
+    assert!(outcome.guilty().is_empty(), "a golden that is missing says nothing of the pass");
+    assert_eq!(outcome.ports.iter().filter(|port| port.state == State::Unjudged).count(), 1);
     says(&outcome, "there is no golden");
     assert!(chain.isolated().text().contains("`three.result` has no golden"));
 }
@@ -119,6 +120,16 @@ fn nothing_is_blessed_of_which_something_else_does_not_hold() {
     let outcome = chain.run(&bless());
     says(&outcome, "something else does not hold");
     assert!(outcome.blessed.is_empty(), "{:?}", outcome.blessed);
+    // Neither is what is made from it, though nothing else is wrong with that.
+    chain.test("\"*\": (golden: RelativeRmse(1e-5)), \"three.*\": (properties: [Range(0.0, 1.2)])", "");
+    chain.set_line("three", "    let value = texel(id.xy) + vec3(5.0);");
+    let outcome = chain.run(&bless());
+    says(&outcome, "not blessed: four.result: it is made from what `three` writes");
+    assert!(outcome.blessed.is_empty(), "{:?}", outcome.blessed);
+    let before = fs::read(chain.path("chain.goldens/five.result.exr")).unwrap();
+    let one = chain.run(&Options { tap: Some("five.*".to_owned()), ..bless() });
+    assert!(one.blessed.is_empty(), "{:?}", one.blessed);
+    assert_eq!(fs::read(chain.path("chain.goldens/five.result.exr")).unwrap(), before);
 }
 
 #[test]

@@ -93,9 +93,12 @@ impl Folder {
     }
 
     fn hunt(&self, per_pass: usize, seed: u64) -> Result<Vec<PassFindings>, Trouble> {
-        let request =
-            Hunt { tests: vec![self.test()], filter: String::new(), per_pass, seed, goldens: true, untested: true };
+        let request = self.request(per_pass, seed, vec![self.test()]);
         hunt(&mut self.session(), &request, &mut |_| {})
+    }
+
+    fn request(&self, per_pass: usize, seed: u64, tests: Vec<PathBuf>) -> Hunt {
+        Hunt { tests, filter: String::new(), per_pass, seed, goldens: true, every_test: false, untested: true }
     }
 }
 
@@ -175,9 +178,31 @@ fn a_reason_is_told_and_kills_nothing_and_a_stale_one_is_a_mistake() {
     assert!(mistakes(folder.hunt(1000, 1)).contains("this mutant does not survive"));
 }
 
+/// A second test looks at the end alone, and lays mistakes of the first pass at the second: whoever asks for the first test
+/// that notices may hear of the other, and whoever asks every test hears of this one. (Alpha does not get so far.)
+#[test]
+fn every_test_is_asked_whom_it_blames() {
+    let folder = Folder::new();
+    folder.put(
+        "end.test.ron",
+        r#"(version: 1, graph: "pair.graph.ron", size: (16, 8), taps: { "end.result": (golden: RelativeRmse(1e-5)) })"#,
+    );
+    let end = folder.0.path().join("end.test.ron");
+    assert!(folder.session().run(&end, &Options { bless: true, ..Options::default() }).passed());
+    let request = folder.request(1000, 1, vec![folder.test(), end]);
+    let every = Hunt { every_test: true, filter: "first".to_owned(), ..request };
+    let findings = hunt(&mut folder.session(), &every, &mut |_| {}).unwrap_or_else(|_| panic!("it can be hunted"));
+    let figures = Figures::of(&findings);
+    assert!(figures.misnamed > 10 && figures.killed < 5, "{figures:?}");
+    assert!(findings.iter().flat_map(missed).any(|line| line.contains("end fails, and names `pair.second`")));
+}
+
 #[test]
 fn a_test_that_fails_by_itself_says_nothing_about_mutants() {
     let folder = Folder::new();
     folder.put("plugins/pair/second.wgsl", &SECOND.replace("0.05 *", "0.5 *"));
     assert!(matches!(folder.hunt(1, 1), Err(Trouble::Failing(_))));
+    // It does not run for the mutants of passes that it has nothing to do with.
+    let request = Hunt { filter: "third".to_owned(), ..folder.request(1, 1, vec![folder.test()]) };
+    assert!(hunt(&mut folder.session(), &request, &mut |_| {}).is_ok_and(|findings| findings.is_empty()));
 }
