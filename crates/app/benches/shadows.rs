@@ -2,7 +2,7 @@
 //!
 //! Prints the tables of the README of `shadow_planes` and writes them and the plots to `docs/shadows-*`. Everything runs
 //! in the program itself, within one run, so that ratios hold on a machine that does other things too. Pictures are
-//! 800×600; errors are of a smaller picture of the same view, against lit intervals of all triangles in double precision.
+//! 800×600, or as large as an argument says (then `out/` gets the files); errors are of a smaller picture of the same view, against lit intervals of all triangles in double precision.
 //!
 //! The march is given the best of all: its error is that of a march with a ray at the triangles from every step, its time
 //! that of one that looks a shadow map up, and the map itself, which errs and costs besides, is free. To the time of the
@@ -23,6 +23,7 @@ use tyndall_shaders::airlight::airlight;
 use tyndall_shaders::ray::ray_of_pixel;
 use tyndall_shaders::shadows::lit_intervals;
 
+/// Of the pictures that are timed, unless the first argument says otherwise (`-- 200x150`, for a quick look).
 const SIZE: [u32; 2] = [800, 600];
 /// Of the pictures whose error is measured.
 const SMALL: [u32; 2] = [64, 48];
@@ -33,21 +34,31 @@ const PROMISED: f64 = 5e-3;
 const ROUNDS: usize = 3;
 
 fn main() {
-    let bench = Bench { folder: tempfile::tempdir().unwrap() };
-    let mut report = String::from("Measured by `cargo bench -p tyndall --bench shadows`, 800×600, ");
-    report += &format!("{}.\n\n", bench.adapter());
+    let size = std::env::args().skip(1).find_map(|argument| {
+        let (width, height) = argument.split_once('x')?;
+        Some([width.parse().ok()?, height.parse().ok()?])
+    });
+    let size = size.unwrap_or(SIZE);
+    let out = if size == SIZE { shipped("docs") } else { shipped("").join("out") };
+    std::fs::create_dir_all(&out).unwrap();
+    let bench = Bench { folder: tempfile::tempdir().unwrap(), size, out };
+    let mut report = String::from("Measured by `cargo bench -p tyndall --bench shadows`, ");
+    report += &format!("{}×{}, {}.\n\n", size[0], size[1], bench.adapter());
     let casters = bench.casters();
     report += &caster_table(&casters);
-    caster_plots(&casters);
+    bench.caster_plots(&casters);
     report += &bench.more_lights();
     report += &bench.more_casters();
     println!("\n{report}");
-    write("shadows-cost.md", &report);
+    bench.write("shadows-cost.md", &report);
 }
 
 /// A folder with a scene and graphs, in which the program runs.
 struct Bench {
     folder: tempfile::TempDir,
+    size: [u32; 2],
+    /// Where plots and tables go.
+    out: PathBuf,
 }
 
 /// One caster: what both ways take, and what they err by.
@@ -148,9 +159,14 @@ impl Bench {
         ));
     }
 
-    /// GPU time of the pass that makes the airlight, ms.
-    fn time(&self, frames: usize) -> f64 {
-        let size = SIZE.map(|extent| extent.to_string()).join("x");
+    /// GPU time of the pass that makes the airlight, ms: once where it takes a second, else the median of several.
+    fn time(&self) -> f64 {
+        let once = self.time_of(1);
+        if once > 1e3 { once } else { self.time_of(ROUNDS) }
+    }
+
+    fn time_of(&self, frames: usize) -> f64 {
+        let size = self.size.map(|extent| extent.to_string()).join("x");
         let frames = frames.to_string();
         self.run(&["bench", "bench.graph.ron", "--size", &size, "--frames", &frames, "--json", "bench.json"]);
         let text = std::fs::read_to_string(self.path("bench.json")).unwrap();
@@ -205,7 +221,7 @@ impl Bench {
     /// CPU time of silhouettes and slices, and of slices alone after the camera moved, ms, and their MiB.
     fn slices(&self) -> (f64, f64, f64) {
         let scene = self.load();
-        let aspect = f64::from(SIZE[0]) / f64::from(SIZE[1]);
+        let aspect = f64::from(self.size[0]) / f64::from(self.size[1]);
         let reads = |name: &str| name.starts_with("shadow_");
         let start = Instant::now();
         let mut encoded = scene.encode_for(0.0, aspect, &reads);
@@ -245,14 +261,14 @@ impl Bench {
         let triangles = self.load().instances.iter().map(|instance| instance.mesh.triangles.len()).sum::<usize>() - 2;
         let truth = self.truth();
         let error = self.error(&truth);
-        let planes_ms = self.time(ROUNDS);
+        let planes_ms = self.time();
         let (first_ms, slices_ms, mebibytes) = self.slices();
         let march = [64, 256, 1024].map(|steps| {
             self.march(steps, false);
             (steps, self.error(&truth))
         });
         self.march(TIMED_STEPS, true);
-        let march_ms = self.time(1);
+        let march_ms = self.time_of(1);
         println!(
             "{name}, {triangles} triangles: p95 {error:.1e}, {planes_ms:.0} ms; march {march:?}, {march_ms:.0} ms"
         );
@@ -273,9 +289,9 @@ impl Bench {
             let lights: String = (0..count).map(lamp).collect();
             self.scene(&lights, "(mesh: Box(size: (1.2, 1.0, 1.0)), translation: (-1.0, 1.4, -5.7))");
             self.planes();
-            let planes = self.time(ROUNDS);
+            let planes = self.time();
             self.march(TIMED_STEPS, true);
-            let march = self.time(1);
+            let march = self.time_of(1);
             writeln!(table, "| {count} | {planes:.0} ms | {march:.0} ms |").unwrap();
             let last = count == 8;
             points.extend([
@@ -283,9 +299,9 @@ impl Bench {
                 mark(1, "march, 64 steps", last, f64::from(count), march),
             ]);
         }
-        plot(
+        self.plot(
             "lights",
-            ("Lights", "A box at 800×600: GPU time of a frame"),
+            ("Lights", "A box: GPU time of a frame"),
             [("lights", Unit::Count), ("GPU time", Unit::Milliseconds)],
             None,
             &points,
@@ -315,7 +331,7 @@ impl Bench {
             let times = [nested, beside].map(|objects| {
                 self.scene(LAMP, &objects);
                 self.planes();
-                self.time(ROUNDS)
+                self.time()
             });
             writeln!(table, "| {count} | {:.0} ms | {:.0} ms |", times[0], times[1]).unwrap();
             let last = count == 32;
@@ -325,14 +341,76 @@ impl Bench {
                 mark(1, "side by side", last, count, times[1]),
             ]);
         }
-        plot(
+        self.plot(
             "overlap",
-            ("Overlapping shadows", "Exact shadow planes of boxes at 800×600: GPU time of a frame"),
+            ("Overlapping shadows", "Exact shadow planes of boxes: GPU time of a frame"),
             [("boxes", Unit::Count), ("GPU time", Unit::Milliseconds)],
             None,
             &points,
         );
         table
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        let path = self.out.join(name);
+        std::fs::write(&path, text).unwrap();
+        println!("wrote {}", path.display());
+    }
+
+    fn plot(
+        &self,
+        name: &str,
+        (title, note): (&str, &str),
+        quantities: [(&str, Unit); 2],
+        rule: Option<f64>,
+        points: &[Point],
+    ) {
+        let note = format!("{note}, {}×{}", self.size[0], self.size[1]);
+        let svg = curves((title, &note), quantities, rule, points).unwrap();
+        self.write(&format!("shadows-{name}.svg"), &svg);
+    }
+
+    fn caster_plots(&self, casters: &[Measured]) {
+        let bodies: Vec<&Measured> = casters.iter().filter(|of| of.name != "tree").collect();
+        let last = bodies.len() - 1;
+        let tree = casters.iter().find(|of| of.name == "tree").unwrap();
+        let series = |family: usize, label: &str, of: &dyn Fn(&Measured) -> f64| -> Vec<Point> {
+            let marks = bodies.iter().enumerate();
+            let mut marks: Vec<Point> =
+                marks.map(|(i, body)| mark(family, label, i == last, body.triangles as f64, of(body))).collect();
+            marks.push(mark(family + 2, &format!("tree: {label}"), true, tree.triangles as f64, of(tree)));
+            marks
+        };
+        let ratio = |error: Option<f64>| {
+            move |of: &Measured| of.march_of(of.steps_for(error.unwrap_or(of.error)).0) / of.planes()
+        };
+        let ratios = [series(0, "same p95", &ratio(None)), series(1, "p95 of 0.5 %", &ratio(Some(PROMISED)))].concat();
+        self.plot(
+            "crossover",
+            (
+                "March over exact shadow planes: time at the same error",
+                "Above the line the planes win. One lamp; the map of the march is free and perfect",
+            ),
+            [("triangles that cast shadows", Unit::Count), ("time of the march/time of the planes", Unit::Ratio)],
+            Some(1.0),
+            &ratios,
+        );
+        let times =
+            [series(0, "planes, GPU", &|of| of.planes_ms), series(1, "slices, CPU", &|of| of.slices_ms)].concat();
+        self.plot(
+            "triangles",
+            ("Triangles", "Exact shadow planes, one lamp"),
+            [("triangles that cast shadows", Unit::Count), ("time of a frame", Unit::Milliseconds)],
+            None,
+            &times,
+        );
+        self.plot(
+            "memory",
+            ("Memory of the slices of one lamp", "Silhouette edges and their entries in slices"),
+            [("triangles that cast shadows", Unit::Count), ("memory", Unit::Mebibytes)],
+            None,
+            &series(0, "slices", &|of| of.mebibytes),
+        );
     }
 }
 
@@ -342,18 +420,8 @@ fn shipped(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path).canonicalize().unwrap()
 }
 
-fn write(name: &str, text: &str) {
-    let path = shipped("docs").join(name);
-    std::fs::write(&path, text).unwrap();
-    println!("wrote docs/{name}");
-}
-
 fn mark(family: usize, label: &str, is_named: bool, x: f64, y: f64) -> Point {
     Point { label: if is_named { label.to_owned() } else { String::new() }, family, x, y }
-}
-
-fn plot(name: &str, title: (&str, &str), quantities: [(&str, Unit); 2], rule: Option<f64>, points: &[Point]) {
-    write(&format!("shadows-{name}.svg"), &curves(title, quantities, rule, points).unwrap());
 }
 
 fn caster_table(casters: &[Measured]) -> String {
@@ -396,47 +464,6 @@ fn caster_table(casters: &[Measured]) -> String {
         )
     };
     table + &format!("\nAt the same p95 {}; at a p95 of 0.5 % {}.\n", crossing(0.0), crossing(PROMISED))
-}
-
-fn caster_plots(casters: &[Measured]) {
-    let bodies: Vec<&Measured> = casters.iter().filter(|of| of.name != "tree").collect();
-    let last = bodies.len() - 1;
-    let tree = casters.iter().find(|of| of.name == "tree").unwrap();
-    let series = |family: usize, label: &str, of: &dyn Fn(&Measured) -> f64| -> Vec<Point> {
-        let marks = bodies.iter().enumerate();
-        let mut marks: Vec<Point> =
-            marks.map(|(i, body)| mark(family, label, i == last, body.triangles as f64, of(body))).collect();
-        marks.push(mark(family + 2, &format!("tree: {label}"), true, tree.triangles as f64, of(tree)));
-        marks
-    };
-    let ratio =
-        |error: Option<f64>| move |of: &Measured| of.march_of(of.steps_for(error.unwrap_or(of.error)).0) / of.planes();
-    let ratios = [series(0, "same p95", &ratio(None)), series(1, "p95 of 0.5 %", &ratio(Some(PROMISED)))].concat();
-    plot(
-        "crossover",
-        (
-            "March over exact shadow planes: time at the same error",
-            "Above the line the planes win. One lamp, 800×600; the map of the march is free and perfect",
-        ),
-        [("triangles that cast shadows", Unit::Count), ("time of the march/time of the planes", Unit::Ratio)],
-        Some(1.0),
-        &ratios,
-    );
-    let times = [series(0, "planes, GPU", &|of| of.planes_ms), series(1, "slices, CPU", &|of| of.slices_ms)].concat();
-    plot(
-        "triangles",
-        ("Triangles", "Exact shadow planes, one lamp, 800×600"),
-        [("triangles that cast shadows", Unit::Count), ("time of a frame", Unit::Milliseconds)],
-        None,
-        &times,
-    );
-    plot(
-        "memory",
-        ("Memory of the slices of one lamp", "Silhouette edges and their entries in slices"),
-        [("triangles that cast shadows", Unit::Count), ("memory", Unit::Mebibytes)],
-        None,
-        &series(0, "slices", &|of| of.mebibytes),
-    );
 }
 
 /// A closed body with bumps, as glTF: 2 * around * (along - 1) triangles.
