@@ -146,6 +146,11 @@ impl Linked {
         found
     }
 
+    /// Whether it has loops, so that a mutant of it may not end.
+    pub fn has_loops(&self) -> bool {
+        apply::has_loops(&self.module)
+    }
+
     /// The shader with this mistake in it, or with none; its loops end after so many iterations.
     ///
     /// # Errors

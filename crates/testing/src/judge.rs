@@ -1,6 +1,6 @@
 //! What was rendered, held against everything that a test says.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use tyndall_graph::descriptor::ParamValue;
 use tyndall_graph::{ParamSetting, Plan, PortRef};
@@ -10,6 +10,7 @@ use tyndall_render::Loaded;
 
 use crate::adapter::AdapterClass;
 use crate::answers::Answers;
+use crate::blame::Upstream;
 use crate::file::{MOST_TEXELS, Property, Tapped};
 use crate::golden;
 use crate::metric::Judgement;
@@ -29,9 +30,26 @@ pub(crate) struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// Every tapped port of a frame, in the order in which the passes run.
+    /// Every tapped port of a frame, in the order in which the passes run. Where only the first failure is wanted, ports that
+    /// were made from one that fails are left out: nothing that they could say would change whose fault it is.
     pub fn frame(&self, rendered: &Rendered) -> Vec<PortOutcome> {
-        self.ready.tapped.iter().map(|tapped| self.port(tapped, rendered)).collect()
+        let (plan, upstream) = (&self.ready.plan, Upstream::of(&self.ready.plan));
+        let mut failing: BTreeSet<u32> = BTreeSet::new();
+        let mut outcomes = Vec::with_capacity(self.ready.tapped.len());
+        for tapped in &self.ready.tapped {
+            let position = plan.position(tapped.port.pass);
+            let made_from = position.map(|position| upstream.passes(plan, position as usize));
+            let inherits = || made_from.into_iter().flatten().any(|pass| failing.contains(&(pass as u32)));
+            if self.options.until_failure && inherits() {
+                continue;
+            }
+            let outcome = self.port(tapped, rendered);
+            if outcome.checks.iter().any(|check| !check.judgement.passed && check.also_on.is_empty()) {
+                failing.extend(position);
+            }
+            outcomes.push(outcome);
+        }
+        outcomes
     }
 
     /// One port of a frame.

@@ -17,7 +17,8 @@ pub struct Options {
     pub isolate: bool,
     /// Leave goldens and other renderers' pictures out: properties, references on the CPU and relations alone.
     pub without_goldens: bool,
-    /// Ask no more relations once something does not hold: for whoever only wants to know whether anything fails.
+    /// Ask no more than what tells whose fault it is once something does not hold: no relations, and nothing of ports that
+    /// were made from one that fails.
     pub until_failure: bool,
     /// Another size than the test says, in pixels. Goldens are left out, and whatever else is stated for a size.
     pub size: Option<(u32, u32)>,

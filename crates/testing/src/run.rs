@@ -62,16 +62,18 @@ impl Session {
     }
 
     fn try_run(&mut self, path: &Path, options: &Options, outcome: &mut Outcome) -> Result<(), Error> {
-        let ready = self.ready(path, options, outcome)?;
+        let mut ready = self.ready(path, options, outcome)?;
         outcome.about.clone_from(&ready.file.about);
         outcome.graph.clone_from(&ready.file.request.graph);
         outcome.passes = passes(&ready.plan);
         if options.isolate {
             isolate::run(self, &ready, options, outcome)?;
         } else {
-            let rendered =
-                self.render(&ready.loaded, &ready.registry, &ready.ports(), &ready.file.frames, Variation::PLAIN)?;
+            if options.until_failure && self.fails_at_once(&mut ready, options, outcome)? {
+                return Ok(());
+            }
             let adapter = AdapterClass::of(self.gpu());
+            let rendered = self.rendered(&ready, &ready.ports())?;
             let judge = Judge { ready: &ready, options, adapter, answers: &self.answers };
             outcome.ports = rendered.iter().flat_map(|frame| judge.frame(frame)).collect();
             let decided = options.until_failure && !outcome.ports.iter().all(PortOutcome::passed);
@@ -101,6 +103,30 @@ impl Session {
             }
         }
         Ok(())
+    }
+
+    fn rendered(&mut self, ready: &Ready, ports: &[PortRef]) -> Result<Vec<Rendered>, Error> {
+        self.render(&ready.loaded, &ready.registry, ports, &ready.file.frames, Variation::PLAIN)
+    }
+
+    /// Renders and judges the ports alone that are written by the pass whose shader is not its own, if one's is. Where they
+    /// fail, the outcome says so, and nothing after them needs to be rendered: it inherits.
+    fn fails_at_once(&mut self, ready: &mut Ready, options: &Options, outcome: &mut Outcome) -> Result<bool, Error> {
+        let Some(changed) = self.substituted().map(str::to_owned) else { return Ok(false) };
+        let kind = |tapped: &Tapped| &ready.loaded.graph.pass(tapped.port.pass).descriptor().name;
+        let own: Vec<Tapped> = ready.tapped.iter().filter(|tapped| *kind(tapped) == changed).cloned().collect();
+        let all = std::mem::replace(&mut ready.tapped, own);
+        let rendered = self.rendered(ready, &ready.ports_of_taps())?;
+        let adapter = AdapterClass::of(self.gpu());
+        let judge = Judge { ready, options, adapter, answers: &self.answers };
+        outcome.ports = rendered.iter().flat_map(|frame| judge.frame(frame)).collect();
+        ready.tapped = all;
+        // A check about another port as well is for the whole graph: it may be that one which fails.
+        let by_itself =
+            |port: &PortOutcome| port.checks.iter().any(|check| !check.judgement.passed && check.also_on.is_empty());
+        let fails = outcome.ports.iter().any(by_itself);
+        attribute(&ready.plan, &Upstream::of(&ready.plan), outcome);
+        Ok(fails && !outcome.guilty().is_empty())
     }
 
     /// The registry of a test, and the kinds of the passes that it runs.
@@ -202,8 +228,17 @@ impl Ready {
     /// passes with a reference on the CPU.
     fn ports(&self) -> Vec<PortRef> {
         let graph = &self.loaded.graph;
-        let mut ports: BTreeSet<PortRef> = self.tapped.iter().map(|tapped| tapped.port).collect();
+        let mut ports: BTreeSet<PortRef> = self.ports_of_taps().into_iter().collect();
         ports.extend(self.file.ports_named().filter_map(|name| find(graph, name)));
+        ports.into_iter().collect()
+    }
+
+    /// Of these, what is needed to judge what is tapped.
+    fn ports_of_taps(&self) -> Vec<PortRef> {
+        let graph = &self.loaded.graph;
+        let mut ports: BTreeSet<PortRef> = self.tapped.iter().map(|tapped| tapped.port).collect();
+        let named = self.tapped.iter().flat_map(|tapped| &tapped.properties).flat_map(|property| property.ports());
+        ports.extend(named.filter_map(|name| find(graph, name)));
         for tapped in self.tapped.iter().filter(|tapped| tapped.asks_cpu()) {
             ports.extend(self.inputs(tapped.port.pass).into_iter().map(|(_, port)| port));
         }

@@ -157,6 +157,11 @@ impl Session {
         substitute.changed
     }
 
+    /// The pass (`plugin.pass`) that runs with a shader which is not its own.
+    pub(crate) fn substituted(&self) -> Option<&str> {
+        self.substitute.as_ref().map(|substitute| substitute.pass.as_str())
+    }
+
     fn known(&self, key: &ResultKey) -> Option<&Arc<PortData>> {
         self.results.get(key).or_else(|| self.substitute.as_ref()?.results.get(key))
     }

@@ -11,7 +11,7 @@ use crate::session::ResultKey;
 
 /// A shader that stands in for one of a pass's own, and what came of it.
 pub(crate) struct Substitute {
-    pass: String,
+    pub pass: String,
     file: String,
     /// That of the pass's own shaders: another pass of the same name, beside another graph, keeps its own.
     fingerprint: u64,

@@ -79,6 +79,21 @@ fn each_call(block: &mut Block, visit: &mut dyn FnMut(&mut Vec<Handle<Expression
     }
 }
 
+/// Whether anything is done more than once.
+pub(super) fn has_loops(module: &Module) -> bool {
+    fn loops(block: &Block) -> bool {
+        block.iter().any(|statement| match statement {
+            Statement::Block(inner) => loops(inner),
+            Statement::If { accept, reject, .. } => loops(accept) || loops(reject),
+            Statement::Switch { cases, .. } => cases.iter().any(|case| loops(&case.body)),
+            Statement::Loop { .. } => true,
+            _ => false,
+        })
+    }
+    let functions = module.functions.iter().map(|(_, function)| function);
+    functions.chain(module.entry_points.iter().map(|entry| &entry.function)).any(|function| loops(&function.body))
+}
+
 /// Gives all loops of an invocation together this many turns.
 pub(super) fn bound_loops(module: &mut Module, iterations: u32) {
     let span = Span::UNDEFINED;

@@ -49,6 +49,9 @@ enum Answer {
 impl Trials<'_> {
     /// How many turns the loops of a right shader need.
     pub fn bound(&mut self, file: &str, shader: &Linked) -> Result<u32, Trouble> {
+        if !shader.has_loops() {
+            return Ok(ITERATIONS[0]);
+        }
         for iterations in ITERATIONS {
             let right = shader.mutant(None, iterations).map_err(|_| Trouble::Unbounded(self.pass.to_owned()))?;
             self.session.substitute(Substitute::new(self.pass, file, self.fingerprint, right));
@@ -106,7 +109,7 @@ impl Trials<'_> {
         if self.tests.is_empty() {
             return Answer::Verdict(Verdict::Untested);
         }
-        let options = Options { without_goldens: !goldens, until_failure: !self.every_test, ..Options::default() };
+        let options = Options { without_goldens: !goldens, until_failure: true, ..Options::default() };
         let mut nearest = (0.0, "nothing".to_owned());
         let mut killed = None;
         for test in self.tests {
@@ -120,7 +123,7 @@ impl Trials<'_> {
                 if named.iter().any(|kind| kind != self.pass) {
                     return Answer::Verdict(Verdict::Misnamed { test, named });
                 }
-                if !self.every_test {
+                if !(self.every_test && goldens == self.goldens) {
                     return Answer::Verdict(Verdict::Killed { test });
                 }
                 killed.get_or_insert(test);
