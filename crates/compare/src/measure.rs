@@ -85,8 +85,10 @@ impl<'p> Measured<'p> {
         let (mut frame, mut set_up) = (Some(0.0), Some(0.0));
         for pass in self.own.iter().filter(|pass| is_first || !pass.is_set_up) {
             let timing = Timing::Pass(pass.position as usize);
-            // what it reads is kept, so that it runs alone
-            self.running.executor.forget(pass.position);
+            // What it reads is kept. It runs where something needs it: so all that follows is forgotten, too.
+            for following in self.own.iter().filter(|other| other.position >= pass.position) {
+                self.running.executor.forget(following.position);
+            }
             let report = self.running.frame(FrameOptions { timing, ..FrameOptions::default() })?;
             let sum = if pass.is_set_up { &mut set_up } else { &mut frame };
             *sum = sum.zip(report.gpu_us).map(|(sum, us)| sum + us);
