@@ -244,6 +244,9 @@ pub(crate) struct Test {
     /// Only ports that match PATTERN: `air.radiance`, `air.*`
     #[arg(long, value_name = "PATTERN")]
     pub tap: Option<String>,
+    /// Only ports of frame N, where a test looks at several
+    #[arg(long, value_name = "N")]
+    pub frame: Option<u32>,
     /// Make what is rendered the golden, where that is missing, different or stale
     #[arg(long, conflicts_with_all = ["isolate", "size", "no_goldens"])]
     pub bless: bool,

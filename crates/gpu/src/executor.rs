@@ -54,6 +54,8 @@ pub struct PassCounters {
     pub runs: u64,
     /// CPU time to record it in the last frame that measured, in microseconds.
     pub cpu_us: f64,
+    /// Time from submission to completion in the last frame that timed each pass, in microseconds.
+    pub alone_us: f64,
 }
 
 /// A plan on a device.
@@ -182,7 +184,7 @@ impl Executor {
         let cpu_us = start.elapsed().as_secs_f64() * 1e6;
         self.freshness.remember(&self.plan);
         let gpu_us = match (&self.stamps, options.timing) {
-            (None, _) | (_, Timing::Off) => None,
+            (None, _) | (_, Timing::Off | Timing::Each) => None,
             (Some(_), _) if self.gpu.is_software() => watch.microseconds(&self.gpu)?,
             (Some(stamps), _) => stamps.microseconds(&self.gpu)?,
         };
@@ -205,7 +207,8 @@ impl Executor {
                 Step::Run { pass: position } if freshness.runs(position as usize) => {
                     let pass = position as usize;
                     let timed = options.timing == Timing::Pass(pass);
-                    if timed {
+                    let each = options.timing == Timing::Each;
+                    if timed || each {
                         // Alone on the GPU: else a driver that works ahead or behind counts other passes too.
                         submit(gpu, &mut encoder);
                         gpu.wait()?;
@@ -227,6 +230,12 @@ impl Executor {
                         watch.start();
                         submit(gpu, &mut encoder);
                         watch.stop(gpu)?;
+                    }
+                    if each {
+                        let start = Instant::now();
+                        submit(gpu, &mut encoder);
+                        gpu.wait()?;
+                        counters[pass].alone_us = start.elapsed().as_secs_f64() * 1e6;
                     }
                 }
                 Step::Run { .. } => {}

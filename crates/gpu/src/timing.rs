@@ -20,6 +20,9 @@ pub enum Timing {
     Frame,
     /// One pass, by its position in the plan.
     Pass(usize),
+    /// Every pass that runs, each submitted by itself and waited for: from submission to completion, into the counters.
+    /// No more than an estimate, which holds what a submission costs as well.
+    Each,
 }
 
 /// Time from submission to completion, for software adapters: the processor does the work there, and their timestamps

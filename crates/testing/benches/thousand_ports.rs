@@ -59,7 +59,7 @@ fn main() {
     let start = Instant::now();
     let report = Report::begin(&desk.path().join("report")).unwrap();
     report.add(&mut outcome).unwrap();
-    report.finish("an adapter", &[outcome]).unwrap();
+    report.finish("an adapter", &[outcome], &[]).unwrap();
     told("thumbnails and pages", start.elapsed());
 }
 

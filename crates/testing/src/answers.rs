@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use tyndall_plugin::{Reference, ReferenceInput};
 
@@ -10,13 +11,29 @@ type Answer = Result<BTreeMap<&'static str, Vec<f32>>, String>;
 
 /// What references on the CPU have said, by what they were asked.
 #[derive(Default)]
-pub(crate) struct Answers(Mutex<HashMap<u64, Arc<Answer>>>);
+pub(crate) struct Answers {
+    known: Mutex<HashMap<u64, Arc<Answer>>>,
+    took: Mutex<Duration>,
+}
 
 impl Answers {
     /// What the reference of a pass says of these inputs.
     pub fn of(&self, pass: &str, reference: Reference, input: &ReferenceInput<'_>) -> Arc<Answer> {
-        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         known.entry(question(pass, input)).or_insert_with(|| Arc::new(reference(input))).clone()
+    }
+
+    /// Does what belongs to asking a reference, and counts the time that it takes.
+    pub fn timed<T>(&self, ask: impl FnOnce() -> T) -> T {
+        let start = Instant::now();
+        let answer = ask();
+        *self.took.lock().unwrap_or_else(PoisonError::into_inner) += start.elapsed();
+        answer
+    }
+
+    /// The time that asking took so far.
+    pub fn took(&self) -> Duration {
+        *self.took.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

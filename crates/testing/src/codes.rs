@@ -30,12 +30,14 @@ codes! {
     TAP_OFF = "tap-off";
     /// A tolerance is no tolerance, or looser than any may be.
     BAD_TOLERANCE = "bad-tolerance";
-    /// A tolerance is loose, and nothing says why.
+    /// A tolerance is loose and nothing says why, or a text that should say something is blank.
     MISSING_REASON = "missing-reason";
     /// A name is no class of adapters.
     UNKNOWN_ADAPTER_CLASS = "unknown-adapter-class";
     /// A check does not fit what the port holds.
     WRONG_CHECK = "wrong-check";
+    /// A check holds whatever comes out.
+    VACUOUS_CHECK = "vacuous-check";
     /// A check names a port that the graph does not have.
     UNKNOWN_TAP = "unknown-tap";
     /// A pass has no reference on the CPU.

@@ -10,7 +10,7 @@ use tyndall_render::Error;
 
 use crate::adapter::AdapterClass;
 use crate::blame::{Upstream, attribute};
-use crate::file::{MOST_TEXELS, Property, Tapped};
+use crate::file::{Property, Tapped};
 use crate::golden;
 use crate::judge::Judge;
 use crate::options::Options;
@@ -28,7 +28,7 @@ pub(crate) fn run(session: &mut Session, ready: &Ready, options: &Options, outco
     passes.dedup();
     let mut upstream = Upstream::nothing(&ready.plan);
     for pass in passes {
-        for frame in &ready.file.frames {
+        for frame in ready.file.frames.iter().filter(|frame| options.looks_at(**frame)) {
             match inputs(ready, pass, *frame) {
                 Ok(inputs) => {
                     if let Some(position) = ready.plan.position(pass) {
@@ -68,6 +68,7 @@ fn run_pass(
     let ports: Vec<PortRef> = tapped.iter().map(|tapped| tapped.port).chain(fed).collect();
     let mut rendered = session.render_alone(&ready.loaded, &ready.registry, &ports, inputs, frame)?;
     rendered.ports.extend(inputs.iter().map(|(port, data)| (*port, data.clone())));
+    let judging = session.judging();
     let judge = Judge { ready, options, adapter: AdapterClass::of(session.gpu()), answers: &session.answers };
     for tapped in tapped {
         // A property about a port that is neither the pass's own nor fed to it is for the whole graph.
@@ -87,6 +88,7 @@ fn run_pass(
         }
         outcome.ports.push(port);
     }
+    session.judged(judging);
     Ok(())
 }
 
@@ -120,7 +122,7 @@ fn from_golden(ready: &Ready, port: PortRef, frame: u32) -> Result<Option<PortDa
     let planned = ready.plan.planned(port).ok_or_else(|| format!("its input `{name}` is not planned"))?;
     let blank = blank(ready.plan.resource(planned));
     let like = Picture::of(&blank, ready.plan.ports[planned as usize].class);
-    if like.thinned(MOST_TEXELS) != like {
+    if !like.fits_golden() {
         return Ok(None);
     }
     let key = ready.key(&name, frame);

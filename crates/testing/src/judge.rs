@@ -11,7 +11,7 @@ use tyndall_render::Loaded;
 use crate::adapter::AdapterClass;
 use crate::answers::Answers;
 use crate::blame::Upstream;
-use crate::file::{MOST_TEXELS, Property, Tapped};
+use crate::file::{Property, Tapped};
 use crate::golden;
 use crate::metric::Judgement;
 use crate::options::Options;
@@ -94,7 +94,7 @@ impl Judge<'_> {
         if let Some(record) = records.get(&outcome.key) {
             outcome.stale = record.stale(made_from.as_ref());
         }
-        let thinned = actual.thinned(MOST_TEXELS);
+        let thinned = actual.thinned();
         let actual = outcome.actual.insert(thinned);
         let check = match golden::read(&self.ready.file.goldens(), &outcome.key, records, actual) {
             Ok(expected) => {
@@ -149,6 +149,10 @@ pub(crate) struct Computing<'a> {
 impl Computing<'_> {
     /// What the pass's reference on the CPU makes of the inputs that the pass was given.
     pub fn port(&self, port: PortRef, actual: &Picture, rendered: &Rendered) -> Result<Picture, String> {
+        self.answers.timed(|| self.ask(port, actual, rendered))
+    }
+
+    fn ask(&self, port: PortRef, actual: &Picture, rendered: &Rendered) -> Result<Picture, String> {
         let plan = self.plan;
         let position = plan.position(port.pass).ok_or("the pass does not run")?;
         let descriptor = plan.descriptor(position);

@@ -52,6 +52,7 @@ mod session;
 mod substitute;
 pub mod summary;
 mod told;
+mod untapped;
 
 use std::path::Path;
 
@@ -60,10 +61,10 @@ pub use codes::CODES;
 pub use discover::{Found, discover};
 pub use file::TestFile;
 pub use fingerprint::Fingerprint;
-pub use metric::{Judgement, Metric};
+pub use metric::{Compared, Judgement, Metric};
 pub use options::{Options, Robustness};
 pub use outcome::{
-    Check, GOLDEN, Outcome, PassOutcome, PortOutcome, Problem, Reach, RelationOutcome, State, Suspicion,
+    Check, GOLDEN, Outcome, PassOutcome, PortOutcome, Problem, Reach, RelationOutcome, State, Suspicion, Untapped,
 };
 pub use picture::Picture;
 pub use report::Report;

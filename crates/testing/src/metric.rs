@@ -39,14 +39,29 @@ pub struct Judgement {
     pub passed: bool,
     /// What was measured, and what is allowed.
     pub figures: String,
-    /// What was measured, over what is allowed: 1 is the limit. Infinite where nothing is allowed.
+    /// What was measured, over what is allowed: 1 is the limit, 0 where nothing differs. Infinite where nothing is allowed.
     pub excess: f64,
+    /// The two pictures, where they were compared and are too far apart: for whoever wants to see it.
+    pub pictures: Option<Box<Compared>>,
+}
+
+/// Two pictures that were compared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Compared {
+    /// What came out.
+    pub actual: Picture,
+    /// What was expected.
+    pub expected: Picture,
+    /// How they were compared.
+    pub metric: Metric,
 }
 
 /// Alpha of a colour is 1 by definition, so it has a tolerance of its own: the rounding of a half float.
 const ALPHA_TOLERANCE: f64 = 5e-4;
 
 impl Metric {
+    /// The largest relative error for which nobody need say why.
+    pub const STRICT: f64 = 1e-4;
     /// The loosest that any test may have: beyond these a comparison says little.
     pub const MOST_RMSE: f64 = 0.05;
     /// The largest part of numbers that may fail.
@@ -77,8 +92,8 @@ impl Metric {
     pub fn is_strict(&self) -> bool {
         match *self {
             Metric::Exact => true,
-            Metric::Absolute { tolerance, failing } => tolerance <= 1e-4 && failing == 0.0,
-            Metric::RelativeRmse { tolerance } => tolerance <= 1e-4,
+            Metric::Absolute { tolerance, failing } => tolerance <= Self::STRICT && failing == 0.0,
+            Metric::RelativeRmse { tolerance } => tolerance <= Self::STRICT,
             Metric::Flip { mean, p99 } => mean <= 0.005 && p99.is_none_or(|p99| p99 <= 0.05),
         }
     }
@@ -100,7 +115,14 @@ impl Metric {
 
     /// Compares; pictures that cannot be compared do not pass.
     pub fn judge(&self, actual: &Picture, expected: &Picture) -> Judgement {
-        self.try_judge(actual, expected).unwrap_or_else(|why| Judgement::failed(format!("cannot be compared: {why}")))
+        let mut judgement = self
+            .try_judge(actual, expected)
+            .unwrap_or_else(|why| Judgement::failed(format!("cannot be compared: {why}")));
+        if !judgement.passed {
+            let compared = Compared { actual: actual.clone(), expected: expected.clone(), metric: *self };
+            judgement.pictures = Some(Box::new(compared));
+        }
+        judgement
     }
 
     fn try_judge(&self, actual: &Picture, expected: &Picture) -> Result<Judgement, String> {
@@ -113,17 +135,10 @@ impl Metric {
             Metric::Exact => {
                 let differing = metrics::differing_bits(&image, &wanted).map_err(said)?;
                 let figures = format!("{differing} of {} numbers differ, none may", image.data.len());
-                Ok(Judgement {
-                    passed: differing == 0,
-                    figures,
-                    excess: if differing == 0 { 0.0 } else { f64::INFINITY },
-                })
+                Ok(Judgement::new(differing == 0, figures, over(differing as f64, 0.0)))
             }
             Metric::Absolute { tolerance, failing } => {
-                let most = Self::MOST_OF_LARGEST * largest(&wanted);
-                if tolerance > most && most > 0.0 {
-                    let why =
-                        format!("a tolerance of {tolerance} is more than 5 % of the largest number: at most {most:e}");
+                if let Some(why) = beyond_largest(tolerance, largest(&wanted)) {
                     return Ok(Judgement::failed(why));
                 }
                 let found = metrics::absolute(&image, &wanted, tolerance).map_err(said)?;
@@ -134,12 +149,8 @@ impl Metric {
                     100.0 * failing,
                     found.largest
                 );
-                let excess = if part <= failing {
-                    found.largest.min(tolerance) / tolerance.max(f64::MIN_POSITIVE)
-                } else {
-                    found.largest / tolerance.max(f64::MIN_POSITIVE)
-                };
-                Ok(Judgement { passed: part <= failing, figures, excess })
+                let largest = if part <= failing { found.largest.min(tolerance) } else { found.largest };
+                Ok(Judgement::new(part <= failing, figures, over(largest, tolerance)))
             }
             Metric::RelativeRmse { tolerance } => {
                 // Pictures of different shape have no planes to compare.
@@ -150,27 +161,46 @@ impl Metric {
                     worst = worst.max(metrics::relative_rmse(image, wanted).map_err(said)?);
                 }
                 let figures = format!("relative RMSE {worst:.3e}, at most {tolerance:e}");
-                Ok(Judgement { passed: worst <= tolerance, figures, excess: worst / tolerance })
+                Ok(Judgement::new(worst <= tolerance, figures, over(worst, tolerance)))
             }
             Metric::Flip { mean, p99 } => {
                 let found = flip::compare(actual, expected)?;
                 let mut figures = format!("FLIP mean {:.4}, at most {mean}", found.mean);
-                let mut excess = found.mean / mean;
+                let mut excess = over(found.mean, mean);
                 if let Some(p99) = p99 {
                     figures += &format!("; 99th percentile {:.4}, at most {p99}", found.p99);
-                    excess = excess.max(found.p99 / p99);
+                    excess = excess.max(over(found.p99, p99));
                 }
-                Ok(Judgement { passed: found.mean <= mean && p99.is_none_or(|p99| found.p99 <= p99), figures, excess })
+                Ok(Judgement::new(found.mean <= mean && p99.is_none_or(|p99| found.p99 <= p99), figures, excess))
             }
         }
     }
 }
 
 impl Judgement {
+    /// Without pictures.
+    pub(crate) fn new(passed: bool, figures: String, excess: f64) -> Self {
+        Self { passed, figures, excess, pictures: None }
+    }
+
     /// One that nothing makes good.
     pub(crate) fn failed(figures: String) -> Self {
-        Self { passed: false, figures, excess: f64::INFINITY }
+        Self::new(false, figures, f64::INFINITY)
     }
+}
+
+/// What was measured over what is allowed: nothing uses up none of it, even where none is allowed.
+pub(crate) fn over(measured: f64, allowed: f64) -> f64 {
+    if measured == 0.0 { 0.0 } else { measured / allowed }
+}
+
+/// Why an absolute tolerance is too large beside the largest expected number.
+fn beyond_largest(tolerance: f64, largest: f64) -> Option<String> {
+    let most = Metric::MOST_OF_LARGEST * largest;
+    let all_zero =
+        || format!("every expected number is 0, and a tolerance of {tolerance} is much beside that: use Exact");
+    let part = || format!("a tolerance of {tolerance} is more than 5 % of the largest number: at most {most:e}");
+    (tolerance > most).then(|| if largest == 0.0 { all_zero() } else { part() })
 }
 
 fn alpha_mistake(actual: &Picture, expected: &Picture) -> Result<Option<String>, String> {
@@ -282,5 +312,21 @@ mod tests {
         let picture = ramp(Class::Color, |_, value| value);
         let loose = Metric::Absolute { tolerance: 0.5, failing: 0.0 };
         assert!(loose.judge(&picture, &picture).figures.contains("5 %"));
+        // Where nothing is expected, every tolerance is a large one.
+        let black = ramp(Class::Color, |_, _| 0.0);
+        for tolerance in [1e-6, 0.5] {
+            let found = Metric::Absolute { tolerance, failing: 0.0 }.judge(&black, &black);
+            assert!(!found.passed && found.figures.contains("every expected number is 0"), "{found:?}");
+        }
+        assert!(Metric::Absolute { tolerance: 0.0, failing: 0.0 }.judge(&black, &black).passed);
+    }
+
+    #[test]
+    fn what_is_too_far_apart_can_be_seen() {
+        let (one, half) = (ramp(Class::Color, |_, value| value), ramp(Class::Color, |_, value| value / 2.0));
+        let metric = Metric::RelativeRmse { tolerance: 1e-3 };
+        assert!(metric.judge(&one, &one).pictures.is_none());
+        let pictures = metric.judge(&half, &one).pictures.unwrap();
+        assert_eq!((pictures.actual, pictures.expected), (half, one));
     }
 }

@@ -13,6 +13,8 @@ pub struct Options {
     pub bless_any_adapter: bool,
     /// Judge (and bless) only ports that match this pattern.
     pub tap: Option<String>,
+    /// Judge (and bless) only ports of this frame.
+    pub frame: Option<u32>,
     /// Run every pass alone, with its inputs from goldens.
     pub isolate: bool,
     /// Leave goldens and other renderers' pictures out: properties, references on the CPU and relations alone.
@@ -26,6 +28,13 @@ pub struct Options {
     pub robustness: Robustness,
     /// Keep what a report shows: pictures of ports that pass too, and the time of every pass.
     pub for_report: bool,
+}
+
+impl Options {
+    /// Whether ports of a frame are judged.
+    pub(crate) fn looks_at(&self, frame: u32) -> bool {
+        self.frame.is_none_or(|chosen| chosen == frame)
+    }
 }
 
 /// In which other ways everything is rendered again.

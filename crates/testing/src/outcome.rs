@@ -21,8 +21,12 @@ pub struct Outcome {
     pub ports: Vec<PortOutcome>,
     /// How ports change from run to run.
     pub relations: Vec<RelationOutcome>,
+    /// In how many other ways everything was rendered, and held against the first bit by bit.
+    pub ways: usize,
     /// What came out different in another order, with other memory, or when it was done again.
     pub robustness: Vec<String>,
+    /// Ports that the test does not look at, for a report.
+    pub untapped: Vec<Untapped>,
     /// What the passes that are named were made from, and nothing holds.
     pub suspicions: Vec<Suspicion>,
     /// What the test says and was not asked, with the reason.
@@ -39,6 +43,8 @@ pub struct Outcome {
     pub took: Duration,
     /// Name of its page in a report, without the suffix; empty where there is no report.
     pub page: String,
+    /// Path of the picture that stands for it in a report: of a port that diverged, else of the last one.
+    pub picture: Option<String>,
 }
 
 /// A pass that ran.
@@ -54,6 +60,19 @@ pub struct PassOutcome {
     pub bytes: u64,
     /// GPU time alone, where it was measured.
     pub microseconds: Option<f64>,
+}
+
+/// A port that a test does not look at.
+#[derive(Debug)]
+pub struct Untapped {
+    /// `pass.port`.
+    pub name: String,
+    /// The pass that writes it.
+    pub pass: String,
+    /// The frame.
+    pub frame: u32,
+    /// What was rendered, no larger than a golden is.
+    pub picture: Picture,
 }
 
 /// Ports that a pass at fault was made from, and in which no check holds every number: the mistake may be there.
@@ -74,10 +93,32 @@ pub enum Problem {
     Machine(String),
     /// A golden that no tap claims.
     Orphan(PathBuf),
+    /// The name of a golden that is gone, of whose record no tap knows.
+    OrphanRecord(String),
     /// A golden could not be written.
     NotBlessed(String),
     /// A pass could not be run alone.
     NotIsolated(String),
+}
+
+impl Problem {
+    /// In one line; of several mistakes the first.
+    pub(crate) fn line(&self) -> String {
+        match self {
+            Problem::Mistakes(mistakes) => {
+                mistakes.iter().next().map_or_else(String::new, |first| format!("{}: {}", first.code, first.message))
+            }
+            Problem::Machine(why) => format!("cannot run: {why}"),
+            Problem::Orphan(path) => {
+                format!("no tap claims the golden `{}`: delete it, or bless to drop it", path.display())
+            }
+            Problem::OrphanRecord(name) => {
+                format!("the record of the golden `{name}` has no file, and no tap claims it: bless to drop it")
+            }
+            Problem::NotBlessed(why) => format!("not blessed: {why}"),
+            Problem::NotIsolated(why) => format!("cannot run a pass alone: {why}"),
+        }
+    }
 }
 
 /// What was found about a port in a frame.
@@ -147,6 +188,8 @@ pub enum Reach {
 /// What was found about a relation and a port.
 #[derive(Debug)]
 pub struct RelationOutcome {
+    /// The frame.
+    pub frame: u32,
     /// What the relation says.
     pub about: String,
     /// `pass.port`.
@@ -175,12 +218,19 @@ impl Outcome {
             && self.relations.iter().all(|relation| relation.judgement.passed)
     }
 
+    /// Nothing failed, but nothing was held against anything either: what the test says is of goldens or of its own size,
+    /// and these were left out. It has neither passed nor failed.
+    pub fn checked_nothing(&self) -> bool {
+        let checks = self.ports.iter().map(|port| port.checks.len()).sum::<usize>();
+        self.passed() && checks + self.relations.len() + self.ways == 0
+    }
+
     /// 0 passed, 1 something does not hold, 2 the input is wrong, 3 the machine cannot do it.
     pub fn exit_code(&self) -> u8 {
         let of_problem = |problem: &Problem| match problem {
             Problem::Mistakes(_) => 2,
             Problem::Machine(_) => 3,
-            Problem::Orphan(_) | Problem::NotBlessed(_) | Problem::NotIsolated(_) => 1,
+            Problem::Orphan(_) | Problem::OrphanRecord(_) | Problem::NotBlessed(_) | Problem::NotIsolated(_) => 1,
         };
         let problems = self.problems.iter().map(of_problem).max().unwrap_or(0);
         problems.max(u8::from(!self.passed()))
@@ -214,7 +264,11 @@ impl Outcome {
 
     /// Lets go of the pictures of its ports.
     pub fn drop_pictures(&mut self) {
+        self.untapped.clear();
         self.ports.iter_mut().for_each(|port| (port.actual, port.expected) = (None, None));
+        let checks = self.ports.iter_mut().flat_map(|port| &mut port.checks).map(|check| &mut check.judgement);
+        let relations = self.relations.iter_mut().map(|relation| &mut relation.judgement);
+        checks.chain(relations).for_each(|judgement| judgement.pictures = None);
     }
 
     /// What a person reads about a failed test.
@@ -228,12 +282,7 @@ impl Outcome {
         for problem in &self.problems {
             text += &match problem {
                 Problem::Mistakes(mistakes) => of_mistakes(mistakes),
-                Problem::Machine(why) => format!("  cannot run: {why}\n"),
-                Problem::Orphan(path) => {
-                    format!("  no tap claims the golden `{}`: delete it, or bless to drop it\n", path.display())
-                }
-                Problem::NotBlessed(why) => format!("  not blessed: {why}\n"),
-                Problem::NotIsolated(why) => format!("  cannot run a pass alone: {why}\n"),
+                other => format!("  {}\n", other.line()),
             };
         }
         if let Some(first) = self.guilty().first() {
@@ -253,7 +302,8 @@ impl Outcome {
             text += &self.port_text(port);
         }
         for relation in self.relations.iter().filter(|relation| relation.state == State::Guilty) {
-            text += &format!("    {}  {}: {}\n", relation.port, relation.about, relation.judgement.figures);
+            let RelationOutcome { port, about, judgement, .. } = relation;
+            text += &format!("    {port}{}  {about}: {}\n", frame(relation.frame), judgement.figures);
         }
         let inherited = self.inherited();
         if !inherited.is_empty() {
@@ -268,8 +318,8 @@ impl Outcome {
     fn port_text(&self, port: &PortOutcome) -> String {
         let mut text = String::new();
         for check in port.checks.iter().filter(|check| !check.judgement.passed) {
-            let frame = if port.frame > 0 { format!(" frame {}", port.frame) } else { String::new() };
-            text += &format!("    {}{frame}  {}: {}\n", port.name, check.what, check.judgement.figures);
+            let Check { what, judgement, .. } = check;
+            text += &format!("    {}{}  {what}: {}\n", port.name, frame(port.frame), judgement.figures);
             if check.what == GOLDEN {
                 if !port.stale.is_empty() {
                     let parts = port.stale.join(", ");
@@ -284,9 +334,33 @@ impl Outcome {
 
     /// The command that blesses one golden.
     pub fn bless_command(&self, port: &PortOutcome) -> String {
-        format!("tyndall test {} --tap {} --bless", self.path.display(), port.name)
+        let frame = if port.key == port.name { String::new() } else { format!(" --frame {}", port.frame) };
+        format!("tyndall test {} --tap {}{frame} --bless", quoted(&self.path.display().to_string()), port.name)
     }
+}
+
+/// A frame other than the first.
+fn frame(frame: u32) -> String {
+    if frame > 0 { format!(" frame {frame}") } else { String::new() }
+}
+
+/// A path as a shell takes it for one word.
+fn quoted(path: &str) -> String {
+    let plain = |letter: char| letter.is_alphanumeric() || "/\\._-+,:@%".contains(letter);
+    if path.chars().all(plain) { path.to_owned() } else { format!("'{}'", path.replace('\'', "'\\''")) }
 }
 
 /// What a comparison with a golden is called.
 pub const GOLDEN: &str = "golden";
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn paths_are_one_word_of_a_shell() {
+        assert_eq!(quoted("plugins/lens/tests/lens.test.ron"), "plugins/lens/tests/lens.test.ron");
+        assert_eq!(quoted("my tests/it's.test.ron"), r"'my tests/it'\''s.test.ron'");
+        assert_eq!(quoted("a$b"), "'a$b'");
+    }
+}

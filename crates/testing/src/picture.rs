@@ -4,6 +4,9 @@ use tyndall_gpu::PortData;
 use tyndall_graph::descriptor::Class;
 use tyndall_image::Image;
 
+/// The longest side of a golden, in texels; in all its layers it has no more than a square of this side.
+pub const MOST_SIDE: u32 = 96;
+
 /// The content of a port, and what its channels mean.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
@@ -45,23 +48,40 @@ impl Picture {
         }
     }
 
-    /// Every k-th texel along each axis, with the least k that leaves no more than `most`; itself where it has no more.
+    /// No larger than a golden may be: every k-th texel along each axis, with the least k that leaves no more than a square
+    /// of [`MOST_SIDE`]; along a side that is longer still, fewer. Of a buffer every k-th element, whole.
     #[must_use]
-    pub fn thinned(&self, most: u32) -> Self {
+    pub fn thinned(&self) -> Self {
+        self.thinned_to(MOST_SIDE)
+    }
+
+    fn thinned_to(&self, side: u32) -> Self {
         let Image { width, height, layers, channels, .. } = self.image;
-        let left =
-            |step: u32| [width, height, layers].iter().map(|extent| u64::from(extent.div_ceil(step))).product::<u64>();
-        let step = (1..=width.max(height).max(layers)).find(|step| left(*step) <= u64::from(most)).unwrap_or(1);
-        if step == 1 {
+        let most = u64::from(side) * u64::from(side);
+        let steps = |step: u32| match self.is_buffer {
+            true => [1, step, 1],
+            false => [step.max(width.div_ceil(side)), step.max(height.div_ceil(side)), step],
+        };
+        let left = |steps: [u32; 3]| [0, 1, 2].map(|axis| [width, height, layers][axis].div_ceil(steps[axis].max(1)));
+        let fits = |step: &u32| left(steps(*step)).into_iter().map(u64::from).product::<u64>() <= most;
+        let longest = width.max(height).max(layers);
+        let steps = steps((1..=longest).find(fits).unwrap_or(longest)).map(|step| step.max(1));
+        if steps == [1; 3] {
             return self.clone();
         }
-        let axis = |extent: u32| (0..extent).step_by(step as usize);
-        let texels =
-            axis(layers).flat_map(|layer| axis(height).flat_map(move |y| axis(width).map(move |x| (layer, x, y))));
+        let axis = |extent: u32, step: u32| (0..extent).step_by(step as usize);
+        let texels = axis(layers, steps[2]).flat_map(|layer| {
+            axis(height, steps[1]).flat_map(move |y| axis(width, steps[0]).map(move |x| (layer, x, y)))
+        });
         let data =
             texels.filter_map(|(layer, x, y)| self.image.pixel_in_layer(layer, x, y)).flatten().copied().collect();
-        let [width, height, layers] = [width, height, layers].map(|extent| extent.div_ceil(step));
+        let [width, height, layers] = left(steps);
         self.with(Image { width, height, layers, channels, data })
+    }
+
+    /// Whether a golden may be as large.
+    pub(crate) fn fits_golden(&self) -> bool {
+        self.thinned().image.data.len() == self.image.data.len()
     }
 
     /// What is compared as a whole: of data ports each channel of each layer, and each number of a buffer's elements, for
@@ -101,9 +121,30 @@ mod tests {
     fn what_is_too_large_is_thinned_along_every_axis() {
         let data = (0..6 * 4 * 2).map(|number| number as f32).collect();
         let picture = Picture::new(Image { width: 6, height: 4, layers: 2, channels: 1, data }, Class::Data);
-        assert_eq!(picture.thinned(48), picture);
-        let thinned = picture.thinned(47);
+        assert_eq!(picture.thinned_to(7), picture);
+        let thinned = picture.thinned_to(6);
         assert_eq!((thinned.image.width, thinned.image.height, thinned.image.layers), (3, 2, 1));
         assert_eq!(thinned.image.data, [0.0, 2.0, 4.0, 12.0, 14.0, 16.0]);
+    }
+
+    /// A side that is too long is thinned though there are few texels in all, and the other is not.
+    #[test]
+    fn no_side_is_too_long() {
+        let data = (0..8 * 2).map(|number| number as f32).collect();
+        let picture = Picture::new(Image { width: 8, height: 2, layers: 1, channels: 1, data }, Class::Data);
+        let thinned = picture.thinned_to(4);
+        assert_eq!((thinned.image.width, thinned.image.height), (4, 2));
+        assert_eq!(thinned.image.data, [0.0, 2.0, 4.0, 6.0, 8.0, 10.0, 12.0, 14.0]);
+        assert!(Picture::new(Image::filled(128, 72, &[1.0]), Class::Scalar).thinned().image.width <= MOST_SIDE);
+    }
+
+    /// The numbers of an element mean different things: none is left out for good.
+    #[test]
+    fn a_buffer_keeps_whole_elements() {
+        let data = (0..12).map(|number| number as f32).collect();
+        let image = Image { width: 3, height: 4, layers: 1, channels: 1, data };
+        let buffer = Picture { image, class: Class::Data, is_buffer: true };
+        assert_eq!(buffer.thinned_to(3).image.data, [0.0, 1.0, 2.0, 6.0, 7.0, 8.0]);
+        assert_eq!(buffer.thinned_to(4), buffer);
     }
 }

@@ -3,7 +3,7 @@
 use tyndall_image::Image;
 
 use crate::file::Property;
-use crate::metric::Judgement;
+use crate::metric::{Judgement, over};
 use crate::picture::Picture;
 
 /// Judges a property. `other` gives another port's picture, `computed` what the reference on the CPU says.
@@ -32,7 +32,7 @@ pub(crate) fn judge(
             let first = texels.next().unwrap_or_default();
             let varies = texels.any(|texel| texel != first);
             let figures = if varies { "not blank".to_owned() } else { format!("every texel is {first:?}") };
-            Judgement { passed: varies, figures, excess: f64::INFINITY }
+            Judgement::new(varies, figures, if varies { 0.0 } else { f64::INFINITY })
         }
         Property::AtMost { port, within } => match named(port) {
             Ok(bound) => at_most(&image, &bound.compared(), *within),
@@ -79,7 +79,7 @@ fn fails(why: &str) -> Judgement {
 fn numbers(image: &Image, what: &str, does: impl Fn(f32) -> bool) -> Judgement {
     let wrong: Vec<usize> = (0..image.data.len()).filter(|index| !does(image.data[*index])).collect();
     let Some(first) = wrong.first() else {
-        return Judgement { passed: !image.data.is_empty(), figures: "every number".to_owned(), excess: 0.0 };
+        return Judgement::new(!image.data.is_empty(), "every number".to_owned(), 0.0);
     };
     let texel = first / image.channels.max(1) as usize;
     let (x, y) = (texel % image.width.max(1) as usize, texel / image.width.max(1) as usize);
@@ -95,7 +95,7 @@ fn vectors(image: &Image, within: f64, or_zero: bool) -> Judgement {
         .map(|length| (length - 1.0).abs())
         .fold(0.0, |a: f64, b| if b.is_nan() { f64::INFINITY } else { a.max(b) });
     let figures = format!("lengths are up to {worst:.2e} from 1, at most {within:e}");
-    Judgement { passed: worst <= within, figures, excess: worst / within }
+    Judgement::new(worst <= within, figures, over(worst, within))
 }
 
 /// No number is more than the bound, but by this part of it.
@@ -105,14 +105,14 @@ pub(crate) fn at_most(image: &Image, bound: &Image, within: f64) -> Judgement {
     {
         return fails("the pictures are of different size");
     }
-    let over = |(value, bound): (&f32, &f32)| {
+    let more = |(value, bound): (&f32, &f32)| {
         let (value, bound) = (f64::from(*value), f64::from(*bound));
         let more = if value == bound { 0.0 } else { (value - bound) / bound.abs().max(f64::MIN_POSITIVE) };
         if more.is_nan() { f64::INFINITY } else { more }
     };
-    let worst = image.data.iter().zip(&bound.data).map(over).fold(f64::NEG_INFINITY, f64::max);
+    let worst = image.data.iter().zip(&bound.data).map(more).fold(f64::NEG_INFINITY, f64::max);
     let figures = format!("more by up to {:.2e} of it, at most {within:e}", worst.max(0.0));
-    Judgement { passed: worst <= within, figures, excess: worst.max(0.0) / within }
+    Judgement::new(worst <= within, figures, over(worst.max(0.0), within))
 }
 
 /// The sum of pictures, alpha kept.
@@ -153,7 +153,7 @@ fn mean(image: &Image, value: &[f64], within: f64) -> Judgement {
     let worst =
         means.iter().enumerate().map(off).fold(0.0, |a: f64, b| if b.is_nan() { f64::INFINITY } else { a.max(b) });
     let figures = format!("the mean is {means:?}, wanted {value:?} within {within:e} of it");
-    Judgement { passed: worst <= within, figures, excess: worst / within }
+    Judgement::new(worst <= within, figures, over(worst, within))
 }
 
 #[cfg(test)]

@@ -39,11 +39,7 @@ pub(crate) fn judge(
         Change::Differs(least) => each(&|other| {
             // A cap on how loose a metric may be is no cap on how much must differ: what is measured is wanted here.
             let found = Metric::RelativeRmse { tolerance: least }.judge(other, own);
-            Judgement {
-                passed: !found.passed,
-                figures: format!("must differ by more: {}", found.figures),
-                excess: 1.0 / found.excess,
-            }
+            Judgement::new(!found.passed, format!("must differ by more: {}", found.figures), 1.0 / found.excess)
         }),
     }
 }

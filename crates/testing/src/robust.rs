@@ -25,6 +25,7 @@ pub(crate) fn run(
     let outputs = final_ports(ready, own);
     let tapped: Vec<PortRef> = ready.tapped.iter().map(|tapped| tapped.port).collect();
     for (name, variation) in options.robustness.variations() {
+        outcome.ways += 1;
         for ports in [&tapped, &outputs] {
             let other = session.render(&ready.loaded, &ready.registry, ports, &ready.file.frames, variation)?;
             for (own, other) in own.iter().zip(&other) {

@@ -12,7 +12,7 @@ use tyndall_render::{Error, Loaded, load};
 
 use crate::adapter::AdapterClass;
 use crate::blame::{Upstream, attribute};
-use crate::file::{Change, Tapped, TestFile, check, matches, read};
+use crate::file::{Change, Tapped, TestFile, check, check_run, matches, read};
 use crate::golden::{self, Records};
 use crate::judge::{Computing, Judge};
 use crate::metric::Judgement;
@@ -20,6 +20,7 @@ use crate::options::Options;
 use crate::outcome::{Outcome, PassOutcome, PortOutcome, Problem, RelationOutcome, State};
 use crate::picture::Picture;
 use crate::session::{Rendered, Session, Variation};
+use crate::untapped::{self, written};
 use crate::{bless, isolate, relation, robust};
 
 /// A test whose file, graph and scene are read.
@@ -72,10 +73,18 @@ impl Session {
             if options.until_failure && self.fails_at_once(&mut ready, options, outcome)? {
                 return Ok(());
             }
+            let ports = if options.for_report { written(&ready.plan) } else { ready.ports() };
+            let mut rendered = self.rendered(&ready, &ports)?;
+            if options.for_report {
+                let take = |frame| untapped::take(&ready, options, frame);
+                outcome.untapped = rendered.iter_mut().flat_map(take).collect();
+            }
             let adapter = AdapterClass::of(self.gpu());
-            let rendered = self.rendered(&ready, &ready.ports())?;
+            let judging = self.judging();
             let judge = Judge { ready: &ready, options, adapter, answers: &self.answers };
-            outcome.ports = rendered.iter().flat_map(|frame| judge.frame(frame)).collect();
+            let judged = rendered.iter().filter(|frame| options.looks_at(frame.frame));
+            outcome.ports = judged.flat_map(|frame| judge.frame(frame)).collect();
+            self.judged(judging);
             let decided = options.until_failure && !outcome.ports.iter().all(PortOutcome::passed);
             if options.size.is_none() && !decided {
                 outcome.relations = self.relations(&ready, &rendered, options)?;
@@ -93,6 +102,10 @@ impl Session {
             let claimed = claimed(&ready);
             let orphans = golden::orphans(&ready.file.goldens(), &claimed);
             outcome.problems.extend(orphans.into_iter().map(Problem::Orphan));
+            // Blessing has dropped some.
+            let records = Records::read(&ready.file.goldens())?;
+            let gone = golden::orphan_records(&ready.file.goldens(), &claimed, &records);
+            outcome.problems.extend(gone.into_iter().map(Problem::OrphanRecord));
         }
         if options.for_report {
             let times = self.times(&ready.loaded, &ready.registry, &ready.plan)?;
@@ -188,13 +201,18 @@ impl Session {
                 let mut out = Diagnostics::default();
                 let loaded = load(&request, &ready.registry, &mut out).filter(|_| !out.has_errors());
                 let Some(loaded) = loaded else { return Err(out.into()) };
+                check_run(&ready.file, relation, &ready.loaded, &loaded, &mut out);
+                if out.has_errors() {
+                    return Err(out.into());
+                }
                 let plan = Self::plan(&loaded.graph, Roots::Ports(rendering.clone()), Variation::PLAIN)?;
                 let frames = &ready.file.frames;
                 let rendered = self.render(&loaded, &ready.registry, &rendering, frames, Variation::PLAIN)?;
                 runs.push(Run { loaded, plan, rendered });
             }
+            let judging = self.judging();
             for (expectation, port) in expect.iter().zip(&ports) {
-                for (frame, own) in own.iter().enumerate() {
+                for (frame, own) in own.iter().enumerate().filter(|(_, own)| options.looks_at(own.frame)) {
                     let others: Option<Vec<Picture>> =
                         runs.iter().map(|run| run.rendered.get(frame)?.picture(&ready.plan, *port)).collect();
                     let judgement = match (own.picture(&ready.plan, *port), others) {
@@ -210,6 +228,7 @@ impl Session {
                         _ => Judgement::failed("it was not rendered in every run".to_owned()),
                     };
                     outcomes.push(RelationOutcome {
+                        frame: own.frame,
                         about: relation.about.clone(),
                         port: expectation.port.clone(),
                         pass: graph.pass(port.pass).name.clone(),
@@ -218,6 +237,7 @@ impl Session {
                     });
                 }
             }
+            self.judged(judging);
         }
         Ok(outcomes)
     }
@@ -226,7 +246,7 @@ impl Session {
 impl Ready {
     /// Every port that is needed to judge: those tapped, those that properties and relations name, and the inputs of
     /// passes with a reference on the CPU.
-    fn ports(&self) -> Vec<PortRef> {
+    pub fn ports(&self) -> Vec<PortRef> {
         let graph = &self.loaded.graph;
         let mut ports: BTreeSet<PortRef> = self.ports_of_taps().into_iter().collect();
         ports.extend(self.file.ports_named().filter_map(|name| find(graph, name)));

@@ -17,6 +17,7 @@ use crate::answers::Answers;
 use crate::fingerprint::{Fingerprint, fingerprints};
 use crate::picture::Picture;
 use crate::substitute::Substitute;
+use crate::untapped::written;
 
 /// Makes the plugins of a registry.
 pub type Plugins = Vec<fn() -> Plugin>;
@@ -34,6 +35,8 @@ pub struct Session {
     cache: PipelineCache,
     results: HashMap<ResultKey, Arc<PortData>>,
     held: usize,
+    /// What a pass took when it ran for the first time.
+    costs: HashMap<Fingerprint, Duration>,
     substitute: Option<Substitute>,
     pub(crate) answers: Answers,
     /// What sharing has saved.
@@ -45,16 +48,39 @@ pub(crate) type ResultKey = (Fingerprint, u32);
 /// Results that are held at most, numbers: 1 GiB. Beyond it all are let go, and sharing begins anew.
 const MOST_HELD: usize = 1 << 28;
 
-/// How much sharing results between tests has saved.
+/// How much sharing results between tests has saved, and what took time.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Saved {
     /// Runs of passes that would have been needed.
     pub passes: usize,
     /// Of these, runs that were not.
     pub spared: usize,
-    /// Time spent on rendering, reading results back included.
+    /// Time that these took when they ran for the first time: an estimate of what is saved.
+    pub spared_time: Duration,
+    /// Time spent on rendering, compiling shaders and reading results back included.
     pub rendering: Duration,
+    /// Time spent on references on the CPU.
+    pub references: Duration,
+    /// Time spent on comparing, references on the CPU left out.
+    pub comparing: Duration,
+    /// Time spent on measuring each pass and on pages, where there is a report.
+    pub reporting: Duration,
 }
+
+impl std::ops::AddAssign for Saved {
+    fn add_assign(&mut self, other: Self) {
+        self.passes += other.passes;
+        self.spared += other.spared;
+        self.spared_time += other.spared_time;
+        self.rendering += other.rendering;
+        self.references += other.references;
+        self.comparing += other.comparing;
+        self.reporting += other.reporting;
+    }
+}
+
+/// When judging began, and how long references on the CPU had taken until then.
+pub(crate) struct Judging(Instant, Duration);
 
 /// How a graph is rendered, apart from what it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -108,10 +134,23 @@ impl Session {
             cache: PipelineCache::default(),
             results: HashMap::new(),
             held: 0,
+            costs: HashMap::new(),
             substitute: None,
             answers: Answers::default(),
             saved: Saved::default(),
         })
+    }
+
+    /// Judging begins.
+    pub(crate) fn judging(&self) -> Judging {
+        Judging(Instant::now(), self.answers.took())
+    }
+
+    /// Judging has ended.
+    pub(crate) fn judged(&mut self, Judging(start, references): Judging) {
+        let references = self.answers.took().saturating_sub(references);
+        self.saved.references += references;
+        self.saved.comparing += start.elapsed().saturating_sub(references);
     }
 
     /// The device.
@@ -259,7 +298,7 @@ impl Session {
         }
         self.saved.passes += plan.passes.len();
         if missing.is_empty() {
-            self.saved.spared += plan.passes.len();
+            self.spare(plan, &prints, &[]);
             self.compare(loaded, plan, &rendered);
             return Ok(rendered);
         }
@@ -267,9 +306,10 @@ impl Session {
         let rest_prints = self.prints(loaded, registry, &rest, frame);
         let mut running = Running::new(&self.gpu, rest, loaded.scene.as_ref(), registry, &mut self.cache)?;
         self.give_known(&mut running.executor, &rest_prints)?;
-        let report = running.frame(FrameOptions { frame, ..FrameOptions::default() })?;
-        self.saved.spared += plan.passes.len() - report.passes_run;
+        running.frame(FrameOptions { frame, timing: Timing::Each, ..FrameOptions::default() })?;
         let executor = &running.executor;
+        let ran = self.ran(executor, &rest_prints);
+        self.spare(plan, &prints, &ran);
         for port in missing {
             let Some(planned) = executor.plan().planned(port) else { continue };
             let data = Arc::new(executor.read(planned)?);
@@ -280,6 +320,23 @@ impl Session {
         }
         self.compare(loaded, plan, &rendered);
         Ok(rendered)
+    }
+
+    /// The fingerprints of the passes that an executor has run, and what each took.
+    fn ran(&mut self, executor: &Executor, prints: &[Option<Fingerprint>]) -> Vec<Option<Fingerprint>> {
+        let ran = executor.counters().iter().zip(prints).filter(|(counters, _)| counters.runs > 0);
+        for (counters, print) in ran.clone() {
+            let took = Duration::from_secs_f64(counters.alone_us / 1e6);
+            print.map(|print| self.costs.entry(print).or_insert(took));
+        }
+        ran.map(|(_, print)| *print).collect()
+    }
+
+    /// Counts the passes of a plan that have not run, as they had before.
+    fn spare(&mut self, plan: &Plan, prints: &[Option<Fingerprint>], ran: &[Option<Fingerprint>]) {
+        self.saved.spared += plan.passes.len() - ran.len();
+        let spared = prints.iter().filter(|print| !ran.contains(print)).flatten();
+        self.saved.spared_time += spared.filter_map(|print| self.costs.get(print)).sum::<Duration>();
     }
 
     /// Holds what was rendered against what the pass's own shader made of it before.
@@ -331,8 +388,8 @@ impl Session {
     /// # Errors
     /// What the machine cannot do.
     pub fn times(&mut self, loaded: &Loaded, registry: &Registry, plan: &Plan) -> Result<Vec<Option<f64>>, Error> {
-        let written = plan.ports.iter().filter(|port| port.pass.is_some()).map(|port| port.port);
-        let all = Self::plan(&loaded.graph, Roots::Ports(written.collect()), Variation::PLAIN)?;
+        let start = Instant::now();
+        let all = Self::plan(&loaded.graph, Roots::Ports(written(plan)), Variation::PLAIN)?;
         let (passes, prints) = (0..all.passes.len(), self.prints(loaded, registry, &all, 0));
         let mut running = Running::new(&self.gpu, all, loaded.scene.as_ref(), registry, &mut self.cache)?;
         self.give_known(&mut running.executor, &prints)?;
@@ -342,7 +399,9 @@ impl Session {
             let options = FrameOptions { timing: Timing::Pass(pass), ..FrameOptions::default() };
             Ok(running.frame(options)?.gpu_us)
         };
-        passes.map(time).collect()
+        let times = passes.map(time).collect();
+        self.saved.reporting += start.elapsed();
+        times
     }
 
     /// Runs one pass of a frame with these inputs given, and reads its ports.
@@ -357,6 +416,7 @@ impl Session {
         inputs: &BTreeMap<PortRef, Arc<PortData>>,
         frame: u32,
     ) -> Result<Rendered, Error> {
+        let start = Instant::now();
         let plan = Self::plan(&loaded.graph, Roots::Ports(ports.to_vec()), Variation::PLAIN)?;
         let mut running = Running::new(&self.gpu, plan, loaded.scene.as_ref(), registry, &mut self.cache)?;
         for (port, data) in inputs {
@@ -368,7 +428,9 @@ impl Session {
         }
         running.frame(FrameOptions { frame, ..FrameOptions::default() })?;
         let prints = vec![None; running.executor.plan().passes.len()];
-        read_all(&running.executor, ports, frame, &prints)
+        let rendered = read_all(&running.executor, ports, frame, &prints);
+        self.saved.rendering += start.elapsed();
+        rendered
     }
 }
 

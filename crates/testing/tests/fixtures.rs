@@ -6,12 +6,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use tyndall_document::{Diagnostics, Source, fixture};
-use tyndall_plugin::SearchPath;
-use tyndall_render::{Error, load};
+use tyndall_plugin::{Registry, SearchPath};
+use tyndall_render::{Error, Loaded, load};
 use tyndall_testing::codes::STALE_REASON;
-use tyndall_testing::file::{check, read};
+use tyndall_testing::file::{check, check_run, read};
 use tyndall_testing::mutants::{Hunt, Trouble, hunt};
-use tyndall_testing::{CODES, Session};
+use tyndall_testing::{CODES, Session, TestFile};
 
 /// Reads a fixture as a test file beside the graph that it names, and holds it against that; one of reasons for mutants
 /// as these.
@@ -29,8 +29,21 @@ fn run(source: &Arc<Source>) -> Diagnostics {
         && let Some(loaded) = load(&file.request, &registry, &mut out)
     {
         check(&file, &loaded.graph, &|_| false, &mut out);
+        rerun(&file, &loaded, &registry, &mut out);
     }
     renamed(out, &format!("{}/", folder.path().display()), "")
+}
+
+/// Holds each other run of each relation against the test's own.
+fn rerun(file: &TestFile, own: &Loaded, registry: &Registry, out: &mut Diagnostics) {
+    for relation in &file.relations {
+        for settings in &relation.runs {
+            let mut request = file.request.clone();
+            request.set.extend(settings.iter().cloned());
+            let other = load(&request, registry, out).unwrap();
+            check_run(file, relation, own, &other, out);
+        }
+    }
 }
 
 /// Holds reasons against a plugin without any WGSL.

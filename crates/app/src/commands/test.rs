@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use tyndall_document::render_text;
 use tyndall_testing::{Options, Outcome, Problem, Report, Robustness, Saved, Session, Told, discover, summary};
@@ -26,16 +26,24 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Test) -> Result<(), F
         return Err(Failure::Usage(format!("there is no test{what}: a test is a file NAME.test.ron")));
     }
     // What cannot be written is said before anything is rendered.
+    if let Some(path) = verb.json.as_ref().filter(|path| path.with_extension("xml") == **path) {
+        let path = path.display();
+        let why = format!("--json {path}: beside the figures stands JUnit XML of that name; call them .json");
+        return Err(Failure::Usage(why));
+    }
     let report = verb.report.as_deref().map(Report::begin).transpose()?;
     let mut run = run_all(app, arguments, verb, &chosen, (&options, report.as_ref()))?;
-    if filter.is_empty() && verb.tap.is_none() {
+    if filter.is_empty() && verb.tap.is_none() && verb.frame.is_none() {
         for orphan in found.orphans {
             run.keep(orphaned(orphan), report.as_ref())?;
         }
     }
-    if let Some(tap) = verb.tap.as_ref().filter(|_| run.outcomes.is_empty()) {
+    if run.outcomes.is_empty() {
         terminal::line("0 passed, 0 failed");
-        return Err(Failure::Usage(format!("no test looks at a port that matches `{tap}`: ports are `pass.port`")));
+        let tap = verb.tap.as_ref().map(|tap| format!(" that matches `{tap}`: ports are `pass.port`"));
+        let frame = verb.frame.map(|frame| format!(" in frame {frame}"));
+        let (frame, tap) = (frame.unwrap_or_default(), tap.unwrap_or_default());
+        return Err(Failure::Usage(format!("no test looks{frame} at a port{tap}")));
     }
     run.outcomes.sort_by(|a, b| a.path.cmp(&b.path));
     let written = write(verb, &run, report);
@@ -52,8 +60,9 @@ fn write(verb: &Test, run: &Run, report: Option<Report>) -> Result<(), Failure> 
         terminal::line(&format!("wrote {} and {}", path.display(), path.with_extension("xml").display()));
     }
     if let Some(report) = report {
-        let page = report.finish(&run.adapter, &run.outcomes)?;
-        terminal::line(&format!("wrote {} in {:.1} s", page.display(), run.reporting.as_secs_f64()));
+        let notes = summary::times(&run.outcomes, run.saved);
+        let page = report.finish(&run.adapter, &run.outcomes, &notes)?;
+        terminal::line(&format!("wrote {}", page.display()));
     }
     Ok(())
 }
@@ -70,6 +79,7 @@ fn options(verb: &Test) -> Result<Options, Failure> {
         bless: verb.bless,
         bless_any_adapter: verb.any_adapter,
         tap: verb.tap.clone(),
+        frame: verb.frame,
         isolate: verb.isolate,
         without_goldens: verb.no_goldens,
         until_failure: false,
@@ -86,8 +96,6 @@ struct Run {
     adapter: String,
     saved: Saved,
     told: Told,
-    /// Time spent on pages.
-    reporting: Duration,
 }
 
 impl Run {
@@ -100,7 +108,8 @@ impl Run {
         told(&outcome, &mut self.told);
         let start = Instant::now();
         let written = report.map_or(Ok(()), |report| report.add(&mut outcome));
-        self.reporting += start.elapsed();
+        self.saved.reporting += start.elapsed();
+        outcome.took += start.elapsed();
         outcome.drop_pictures();
         self.outcomes.push(outcome);
         written
@@ -146,9 +155,7 @@ fn run_all(
         if let Some(Ok(session)) = session {
             let done = &mut done.lock().unwrap_or_else(PoisonError::into_inner).0;
             done.adapter.clone_from(&session.gpu().info.name);
-            done.saved.passes += session.saved.passes;
-            done.saved.spared += session.saved.spared;
-            done.saved.rendering += session.saved.rendering;
+            done.saved += session.saved;
         }
     };
     std::thread::scope(|scope| {
@@ -182,14 +189,22 @@ fn orphaned(folder: PathBuf) -> Outcome {
 
 fn told(outcome: &Outcome, earlier: &mut Told) {
     let took = outcome.took.as_secs_f64() * 1e3;
-    let word = if outcome.passed() { "ok    " } else { "FAILED" };
+    let word = match outcome.passed() {
+        true if outcome.checked_nothing() => "NONE  ",
+        true => "ok    ",
+        false => "FAILED",
+    };
     terminal::line(&format!("{word} {}  ({took:.0} ms)", outcome.name()));
+    if outcome.checked_nothing() {
+        terminal::line(&format!("  {}", summary::NOTHING));
+    }
     for line in &outcome.blessed {
         terminal::line(&format!("  {line}"));
     }
     let stale = outcome.ports.iter().filter(|port| port.passed() && !port.stale.is_empty()).count();
     if stale > 0 {
-        terminal::line(&format!("  {stale} goldens are stale, and still right: --bless renews them"));
+        let are = if stale == 1 { "golden is" } else { "goldens are" };
+        terminal::line(&format!("  {stale} {are} stale, and still right: --bless renews what is"));
     }
     for line in &outcome.left_out {
         terminal::line(&format!("  left out: {line}"));
@@ -200,19 +215,22 @@ fn told(outcome: &Outcome, earlier: &mut Told) {
     terminal::text(&earlier.text(outcome));
 }
 
-/// The slowest tests, what sharing saved, and the last line.
+/// The slowest tests, what took time, and the last line. Tests that checked nothing count neither way; where no other ran,
+/// that is a failure.
 fn conclude(outcomes: &[Outcome], saved: Saved) -> Result<(), Failure> {
-    let failed = outcomes.iter().filter(|outcome| !outcome.passed()).count();
+    let [passed, failed, nothing] = summary::counts(outcomes);
     if outcomes.len() > 1 {
         terminal::line("\nslowest:");
         summary::slowest(outcomes).iter().for_each(|line| terminal::line(line));
-        let Saved { passes, spared, rendering } = saved;
-        terminal::line(&format!(
-            "sharing spared {spared} of {passes} runs of passes; {:.1} s of rendering",
-            rendering.as_secs_f64()
-        ));
+        summary::times(outcomes, saved).iter().for_each(|line| terminal::line(line));
     }
-    terminal::line(&format!("{} passed, {failed} failed", outcomes.len() - failed));
+    if nothing > 0 {
+        terminal::line(&format!("{nothing} of {} tests checked nothing", outcomes.len()));
+    }
+    terminal::line(&format!("{passed} passed, {failed} failed"));
+    if nothing == outcomes.len() {
+        return Err(Failure::Usage(format!("no test has checked anything: {}", summary::NOTHING)));
+    }
     match outcomes.iter().map(Outcome::exit_code).max() {
         Some(0) | None => Ok(()),
         Some(code) => Err(Failure::Told(code)),

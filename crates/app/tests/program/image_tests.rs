@@ -50,6 +50,78 @@ fn half_the_density_is_noticed() {
     assert_eq!(figures["tests"][0]["diverging"], serde_json::json!(["lit", "air"]));
     let junit = std::fs::read_to_string(desk.path("figures.xml")).unwrap();
     assert!(junit.contains("failures=\"1\"") && junit.contains("first diverging pass: lit"), "{junit}");
+    let over = desk.ends(2, &["test", "--json", "figures.xml"]);
+    assert!(over.err.contains("call them .json") && over.out.is_empty(), "{}", over.err);
+    assert_eq!(std::fs::read_to_string(desk.path("figures.xml")).unwrap(), junit);
+}
+
+/// For whatever is wrong continuous integration has a message of its own.
+#[test]
+fn every_kind_of_failure_has_its_own_message() {
+    let desk = blessed();
+    let junit = |desk: &Desk| {
+        desk.run(&["test", "--json", "figures.json"]);
+        std::fs::read_to_string(desk.path("figures.xml")).unwrap()
+    };
+    desk.put("fog.goldens/unknown.exr", "");
+    let orphan = junit(&desk);
+    assert!(orphan.contains("<failure message=\"no tap claims the golden `fog.goldens/unknown.exr`"), "{orphan}");
+    std::fs::remove_file(desk.path("fog.goldens/unknown.exr")).unwrap();
+    std::fs::remove_file(desk.path("fog.goldens/air.radiance.exr")).unwrap();
+    let missing = junit(&desk);
+    assert!(missing.contains("<failure message=\"air.radiance: there is no golden"), "{missing}");
+    test(&desk, "\"aire.radiance\": (golden: Exact)");
+    let wrong = junit(&desk);
+    assert!(wrong.contains("errors=\"1\"") && wrong.contains("<error message=\"empty-pattern: "), "{wrong}");
+    desk.put("plugins/half/plugin.ron", "(name: \"half\", version: \"0.1.0\", about: \"half\", passes: { \"half\": (about: \"writes half of it\", shader: \"half.wgsl\", ports: { \"result\": (about: \"it\", size: Frame(1.0), disabled: Constant(0.0, 0.0, 0.0, 1.0)) }) })");
+    desk.put("plugins/half/half.wgsl", "var result: texture_storage_2d<rgba32float, write>;\n@compute @workgroup_size(8, 8) fn main(@builtin(global_invocation_id) id: vec3<u32>) { if id.x < 8u { textureStore(result, id.xy, vec4<f32>(1.0)); } }");
+    desk.put("half.graph.ron", "(version: 1, size: (24, 16), passes: { \"start\": (use: \"half.half\") }, outputs: { \"end\": \"start.result\" })");
+    desk.put(
+        "fog.test.ron",
+        "(version: 1, graph: \"half.graph.ron\", size: (24, 16), taps: { \"*\": (properties: [NonNegative]) })",
+    );
+    std::fs::remove_dir_all(desk.path("fog.goldens")).unwrap();
+    desk.run(&["test", "--poison", "--json", "figures.json"]);
+    let poisoned = std::fs::read_to_string(desk.path("figures.xml")).unwrap();
+    assert!(
+        poisoned.contains("<failure message=\"`start.result` came out different again from poisoned"),
+        "{poisoned}"
+    );
+}
+
+/// A test that has nothing but goldens has not passed where these are left out, and a run of such tests alone fails.
+#[test]
+fn what_checks_nothing_has_not_passed() {
+    let desk = blessed();
+    let nothing = desk.ends(2, &["test", "--no-goldens", "--json", "figures.json"]);
+    assert!(nothing.out.contains("NONE   fog") && nothing.out.contains("nothing was checked"), "{}", nothing.out);
+    assert!(nothing.err.contains("no test has checked anything"), "{}", nothing.err);
+    assert_eq!(last_line(&nothing), "0 passed, 0 failed");
+    assert!(std::fs::read_to_string(desk.path("figures.xml")).unwrap().contains("skipped=\"1\""));
+    let more =
+        "(version: 1, graph: \"fog.graph.ron\", size: (24, 16), taps: { \"air.radiance\": (properties: [Finite]) })";
+    desk.put("more.test.ron", more);
+    let some = desk.ends(0, &["test", "--no-goldens"]);
+    assert!(some.out.contains("1 of 2 tests checked nothing"), "{}", some.out);
+    assert_eq!(last_line(&some), "1 passed, 0 failed");
+    assert_eq!(last_line(&desk.ends(0, &["test"])), "2 passed, 0 failed");
+}
+
+/// The command that blesses one image is one that a shell takes, for a path with blanks too, and blesses one frame.
+#[test]
+fn one_image_is_blessed_by_the_command_that_is_told() {
+    let desk = Desk::new();
+    let text = "(version: 1, graph: \"../fog.graph.ron\", size: (24, 16), frames: [0, 3], set: { \"scattered\": false }, taps: { \"air.radiance\": (golden: RelativeRmse(1e-5)), \"lit.radiance\": (golden: RelativeRmse(1e-5)) })";
+    desk.put("my tests/fog.test.ron", text);
+    let failed = desk.ends(1, &["test"]);
+    let command = failed.out.lines().find_map(|line| line.trim().strip_prefix("bless just this: tyndall ")).unwrap();
+    assert_eq!(command.split_once("--tap").unwrap().0, "test 'my tests/fog.test.ron' ");
+    let (before, after) = command.split_once("'my tests/fog.test.ron'").unwrap();
+    let words: Vec<&str> =
+        before.split_whitespace().chain(["my tests/fog.test.ron"]).chain(after.split_whitespace()).collect();
+    desk.ends(0, &words);
+    assert_eq!(desk.files("my tests/fog.goldens").len(), 2, "{:?}", desk.files("my tests/fog.goldens"));
+    assert!(desk.ends(2, &["test", "--frame", "5"]).err.contains("no test looks in frame 5 at a port"));
 }
 
 #[test]

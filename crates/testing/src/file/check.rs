@@ -4,7 +4,7 @@ use tyndall_document::{Diagnostic, Diagnostics, Place, Span, near};
 use tyndall_graph::descriptor::{Class, PortKind};
 use tyndall_graph::{Graph, PortRef};
 
-use super::{Change, Golden, Property, Reference, TestFile};
+use super::{Change, Golden, Property, Reference, Tap, TestFile};
 use crate::codes;
 use crate::metric::Metric;
 
@@ -35,6 +35,7 @@ pub fn check(
     let ports: Vec<PortRef> = outputs(graph).collect();
     for tap in &file.taps {
         checker.matches_something(&tap.pattern, tap.span, &ports);
+        checker.properties_fit_something(tap, &ports);
     }
     checker.named_ports_exist();
     let enabled = ports.iter().filter(|port| graph.pass(port.pass).enabled);
@@ -71,6 +72,21 @@ impl Checker<'_> {
             let message = format!("`{pattern}` looks at pass `{}`, which is switched off", off.name);
             let problem = Diagnostic::error(codes::TAP_OFF, place, message);
             self.out.push(problem.suggest("switch it on with `set`, or leave the tap out"));
+        }
+    }
+
+    /// A property of a pattern that no port fits is asked of nothing.
+    fn properties_fit_something(&mut self, tap: &Tap, ports: &[PortRef]) {
+        let looks_at = |port: &&PortRef| {
+            self.graph.pass(port.pass).enabled && matches(&tap.pattern, &self.graph.port_name(**port))
+        };
+        let matching: Vec<PortRef> = ports.iter().filter(looks_at).copied().collect();
+        for property in tap.properties.iter().filter(|_| tap.pattern.contains('*')) {
+            let unfit = matching.iter().map(|port| self.unfit(*port, &property.value));
+            let Some(Some(unfit)) = unfit.reduce(|all, one| all.and(one)) else { continue };
+            let (code, why) = unfit;
+            let message = format!("this fits no port that `{}` matches: {why}", tap.pattern);
+            self.out.push(Diagnostic::error(code, self.file.place(property.span), message));
         }
     }
 
@@ -151,7 +167,12 @@ impl Checker<'_> {
         let name = self.graph.port_name(port);
         let class = class(self.graph, port);
         let wrong = |what: &str| Some((codes::WRONG_CHECK, format!("`{name}` {what}")));
+        let place = || Place::Argument(String::new());
+        let is_itself = |other: &String| self.graph.find(other, place()).is_ok_and(|other| other == port);
         match property {
+            _ if matches!(property.ports(), [other] if is_itself(other)) => {
+                Some((codes::VACUOUS_CHECK, format!("`{name}` is held against itself")))
+            }
             Property::AlphaOne if !matches!(class, Some(Class::Color | Class::Display)) => {
                 wrong("is no colour and has no alpha")
             }

@@ -1,8 +1,10 @@
 //! Metrics, properties and relations, as a test file writes them.
 
 use tyndall_document::{Decoder, Diagnostic, Diagnostics, Fields, Node, Source, Value, parse_value};
+use tyndall_render::Setting;
 
 use super::read::settings;
+use super::reason::{demand_reason, reason};
 use super::{Change, Expectation, Property, Relation, Spanned};
 use crate::codes;
 use crate::metric::Metric;
@@ -82,9 +84,13 @@ fn part(decoder: &mut Decoder<'_>, fields: &Fields<'_>, name: &str) -> Option<f6
     None
 }
 
-pub(super) fn properties(decoder: &mut Decoder<'_>, node: &Node) -> Vec<Spanned<Property>> {
+pub(super) fn properties(decoder: &mut Decoder<'_>, node: &Node, reason: bool) -> Vec<Spanned<Property>> {
     let items = decoder.list(node).unwrap_or_default();
-    let property = |item| property(decoder, item).map(|value| Spanned { value, span: item.span });
+    let property = |item: &Node| {
+        let value = property(decoder, item)?;
+        demand_reason(decoder, item, value.is_strict(), reason);
+        Some(Spanned { value, span: item.span })
+    };
     items.iter().filter_map(property).collect()
 }
 
@@ -163,10 +169,11 @@ pub(super) fn relations(decoder: &mut Decoder<'_>, node: &Node) -> Vec<Relation>
 }
 
 fn relation(decoder: &mut Decoder<'_>, node: &Node) -> Option<Relation> {
-    let fields = decoder.fields(node, "a relation", &["about", "runs", "expect"])?;
+    let fields = decoder.fields(node, "a relation", &["about", "runs", "expect", "reason"])?;
     let about = text(decoder, &fields, "about")?;
+    let reason = reason(decoder, &fields);
     let runs = fields.required(decoder, "runs")?;
-    let runs: Vec<_> = decoder.list(runs)?.iter().map(|run| settings(decoder, run)).collect();
+    let runs: Vec<_> = decoder.list(runs)?.iter().map(|node| run(decoder, node)).collect();
     let expected = fields.required(decoder, "expect")?;
     let entries = decoder.map(expected)?;
     if entries.is_empty() || runs.is_empty() {
@@ -175,9 +182,21 @@ fn relation(decoder: &mut Decoder<'_>, node: &Node) -> Option<Relation> {
         decoder.report(problem.suggest("give it other `runs`, and what to `expect` of a port"));
     }
     let expect = entries.into_iter().filter_map(|(port, span, node)| {
-        change(decoder, node).map(|change| Expectation { port: port.to_owned(), span, change })
+        let change = change(decoder, node)?;
+        demand_reason(decoder, node, change.is_strict(), reason);
+        Some(Expectation { port: port.to_owned(), span, change })
     });
     Some(Relation { about, span: node.span, runs, expect: expect.collect() })
+}
+
+/// What another run sets; one that sets nothing is the test's own.
+fn run(decoder: &mut Decoder<'_>, node: &Node) -> Vec<Setting> {
+    let settings = settings(decoder, node);
+    if matches!(&node.value, Value::Map(entries) if entries.is_empty()) {
+        let problem = Diagnostic::error(codes::EMPTY_RELATION, decoder.place(node.span), "this run sets nothing");
+        decoder.report(problem.suggest("say what is set in it, or leave it out"));
+    }
+    settings
 }
 
 fn change(decoder: &mut Decoder<'_>, node: &Node) -> Option<Change> {
@@ -213,7 +232,14 @@ fn change(decoder: &mut Decoder<'_>, node: &Node) -> Option<Change> {
         }
         "Differs" => {
             let fields = decoder.fields(content, &what, &["by_more_than"])?;
-            Some(Change::Differs(number(decoder, &fields, "by_more_than")?))
+            let least = number(decoder, &fields, "by_more_than")?;
+            if least.is_nan() || least <= 0.0 {
+                let place = decoder.place(node.span);
+                let message = format!("what must differ by more than {least} may differ by rounding alone");
+                let problem = Diagnostic::error(codes::VACUOUS_CHECK, place, message);
+                decoder.report(problem.suggest("say by how much it must differ, 0.01 say"));
+            }
+            Some(Change::Differs(least))
         }
         _ => {
             let fields = decoder.fields(content, &what, &["within"])?;

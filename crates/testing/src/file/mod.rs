@@ -3,6 +3,8 @@
 mod check;
 mod expect;
 mod read;
+mod reason;
+mod rerun;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -17,12 +19,10 @@ pub(crate) use check::matches;
 pub use check::{Tapped, check};
 pub use expect::parse_metric;
 pub use read::read;
+pub use rerun::check_run;
 
 /// What ends the name of a test file.
 pub const SUFFIX: &str = ".test.ron";
-
-/// The largest number of texels that a golden may have, layers counted: 96 × 96.
-pub const MOST_TEXELS: u32 = 96 * 96;
 
 /// A test file.
 #[derive(Debug, Clone)]
@@ -156,6 +156,19 @@ pub enum Property {
 }
 
 impl Property {
+    /// So strict that nobody need say why; see [`Metric::is_strict`].
+    pub fn is_strict(&self) -> bool {
+        match self {
+            Property::UnitLength { within, .. } | Property::AtMost { within, .. } | Property::Mean { within, .. } => {
+                *within <= Metric::STRICT
+            }
+            Property::Equal { by, .. } | Property::Sum { by, .. } | Property::CpuReference { by } => by.is_strict(),
+            Property::Finite | Property::NonNegative | Property::Range(..) | Property::AlphaOne | Property::Varies => {
+                true
+            }
+        }
+    }
+
     /// It says what every number is, and so leaves no room for a mistake.
     pub fn is_whole(&self) -> bool {
         matches!(self, Property::Equal { .. } | Property::Sum { .. } | Property::CpuReference { .. })
@@ -214,6 +227,28 @@ pub enum Change {
     Differs(f64),
     /// Each other run is as the pass's reference on the CPU computes it.
     CpuReference(Metric),
+}
+
+impl Change {
+    /// So strict that nobody need say why; see [`Metric::is_strict`].
+    pub fn is_strict(&self) -> bool {
+        match self {
+            Change::Same(by) | Change::SumOfRuns(by) | Change::CpuReference(by) => by.is_strict(),
+            Change::Scaled(_, by) | Change::Shifted(_, _, by) => by.is_strict(),
+            Change::NoMore(within) | Change::NoLess(within) => *within <= Metric::STRICT,
+            Change::Differs(_) => true,
+        }
+    }
+
+    /// Whether it holds of every port where the only other run is the test's own once more.
+    pub fn holds_of_the_same_run(&self) -> bool {
+        match self {
+            Change::Same(_) | Change::SumOfRuns(_) | Change::NoMore(_) | Change::NoLess(_) => true,
+            Change::Scaled(factor, _) => *factor == 1.0,
+            Change::Shifted(x, y, _) => (*x, *y) == (0, 0),
+            Change::Differs(_) | Change::CpuReference(_) => false,
+        }
+    }
 }
 
 impl TestFile {

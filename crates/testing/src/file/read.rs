@@ -7,10 +7,12 @@ use tyndall_document::{Decoder, Diagnostic, Diagnostics, MISSING_FILE, Node, Sou
 use tyndall_render::{Request, Setting};
 
 use super::expect::{metric, properties, relations};
-use super::{Golden, MOST_TEXELS, Reference, Tap, TestFile};
+use super::reason::{demand_reason, reason, said};
+use super::{Golden, Reference, Tap, TestFile};
 use crate::adapter::AdapterClass;
 use crate::codes;
 use crate::metric::Metric;
+use crate::picture::MOST_SIDE;
 
 const VERSION: i64 = 1;
 const DEFAULT_SIZE: (u32, u32) = (64, 48);
@@ -58,12 +60,13 @@ fn test(source: &Arc<Source>, path: &Path, root: &Node, out: &mut Diagnostics) -
     let about = fields.get("about").and_then(|node| decoder.text(node)).unwrap_or_default().to_owned();
     let (size, frames) = (size?, frames?);
     if let Some(node) = fields.get("size")
-        && size.0 * size.1 > MOST_TEXELS
+        && size.0.max(size.1) > MOST_SIDE
         && taps.iter().any(|tap| tap.golden.is_some())
     {
         let place = decoder.place(node.span);
         let message = format!("a golden of {}x{} pixels is too large for a repository", size.0, size.1);
-        decoder.report(Diagnostic::error(codes::BAD_SIZE, place, message).suggest("96x96 pixels at most"));
+        let most = format!("{MOST_SIDE} pixels along each side at most");
+        decoder.report(Diagnostic::error(codes::BAD_SIZE, place, message).suggest(most));
     }
     let request = Request { graph: graph?, scene, size: Some(size), set };
     Some(TestFile { source: source.clone(), path: path.to_owned(), about, request, frames, taps, relations })
@@ -151,17 +154,18 @@ fn tap(
         decoder.report(problem.suggest("write `pass.port`, `pass.*`, `*.port` or `*`"));
     }
     let fields = decoder.fields(node, "a tap", TAP_FIELDS)?;
-    let reason = fields.get("reason").and_then(|node| decoder.text(node)).is_some_and(|text| !text.trim().is_empty());
+    let reason = reason(decoder, &fields);
     let adapters = fields.get("adapters").map(|node| adapters(decoder, node)).unwrap_or_default();
     let golden = fields.get("golden").and_then(|node| {
         let metric = metric(decoder, node)?;
-        demand_reason(decoder, node, metric, reason);
+        demand_reason(decoder, node, metric.is_strict(), reason);
         Some(Golden { metric, adapters, span: node.span })
     });
     let reference = fields.get("reference").and_then(|node| reference(decoder, folder, node, reason));
-    let properties = fields.get("properties").map(|node| properties(decoder, node)).unwrap_or_default();
-    let says_nothing = ["golden", "reference", "properties"].iter().all(|name| fields.get(name).is_none());
-    if says_nothing {
+    let asked = fields.get("properties");
+    let properties = asked.map(|node| properties(decoder, node, reason)).unwrap_or_default();
+    let asks_nothing = asked.is_none_or(|node| matches!(&node.value, Value::List(items) if items.is_empty()));
+    if asks_nothing && ["golden", "reference"].iter().all(|name| fields.get(name).is_none()) {
         let place = decoder.place(node.span);
         let problem = Diagnostic::error(codes::EMPTY_TAP, place, format!("`{pattern}` says nothing about its ports"));
         decoder.report(problem.suggest("give it a `golden`, a `reference` or `properties`"));
@@ -175,15 +179,6 @@ fn is_pattern(text: &str) -> bool {
     match text.split_once('.') {
         Some((pass, port)) => part(pass) && part(port),
         None => text == "*",
-    }
-}
-
-/// A loose tolerance stands beside its reason.
-fn demand_reason(decoder: &mut Decoder<'_>, node: &Node, metric: Metric, reason: bool) {
-    if !metric.is_strict() && !reason {
-        let place = decoder.place(node.span);
-        let problem = Diagnostic::error(codes::MISSING_REASON, place, "this tolerance is loose, and nothing says why");
-        decoder.report(problem.suggest("add `reason: \"…\"`, or make it stricter"));
     }
 }
 
@@ -203,7 +198,7 @@ fn adapters(decoder: &mut Decoder<'_>, node: &Node) -> Vec<(AdapterClass, Metric
         };
         let golden = fields.required(decoder, "golden").and_then(|node| metric(decoder, node));
         if let (Some(metric), Some(_)) =
-            (golden, fields.required(decoder, "reason").and_then(|node| decoder.text(node)))
+            (golden, fields.required(decoder, "reason").and_then(|node| said(decoder, node, "reason")))
         {
             found.push((class, metric));
         }
@@ -216,9 +211,9 @@ fn reference(decoder: &mut Decoder<'_>, folder: &Path, node: &Node, reason: bool
     let path = fields.required(decoder, "file").and_then(|node| file(decoder, folder, node));
     let by = fields.required(decoder, "by").and_then(|node| {
         let metric = metric(decoder, node)?;
-        demand_reason(decoder, node, metric, reason);
+        demand_reason(decoder, node, metric.is_strict(), reason);
         Some(metric)
     });
-    let provenance = fields.required(decoder, "provenance").and_then(|node| decoder.text(node));
+    let provenance = fields.required(decoder, "provenance").and_then(|node| said(decoder, node, "provenance"));
     Some(Reference { file: path?, metric: by?, provenance: provenance?.to_owned() })
 }

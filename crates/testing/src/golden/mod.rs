@@ -15,8 +15,8 @@ use tyndall_image::{Image, Meaning, Precision, srgb_from_linear, write_exr};
 
 pub use record::{Record, Records};
 
-use crate::file::{GOLDENS, MOST_TEXELS, SUFFIX};
-use crate::picture::Picture;
+use crate::file::{GOLDENS, SUFFIX};
+use crate::picture::{MOST_SIDE, Picture};
 
 /// The name of the file with the records.
 pub const RECORDS: &str = "goldens.ron";
@@ -27,6 +27,9 @@ pub enum Missing {
     /// Nobody has blessed one.
     #[error("there is no golden `{}`: look at the picture, and bless it", .0.display())]
     File(PathBuf),
+    /// Somebody has blessed one, and it is gone.
+    #[error("there is no golden `{}`, and its record is still there: restore it, or bless it again", .0.display())]
+    Gone(PathBuf),
     /// The file is there, and nothing says what it was made from.
     #[error("nothing says what the golden `{}` was made from: bless it", .0.display())]
     Record(PathBuf),
@@ -55,6 +58,7 @@ pub fn file_name(key: &str, class: Class) -> String {
 pub fn read(folder: &Path, key: &str, records: &Records, like: &Picture) -> Result<Picture, Missing> {
     let path = folder.join(file_name(key, like.class));
     let bytes = std::fs::read(&path).map_err(|error| match error.kind() {
+        std::io::ErrorKind::NotFound if records.get(key).is_some() => Missing::Gone(path.clone()),
         std::io::ErrorKind::NotFound => Missing::File(path.clone()),
         _ => Missing::Unreadable(format!("the golden `{}` cannot be read: {error}", path.display())),
     })?;
@@ -92,9 +96,9 @@ fn unfolded(mut image: Image, like: &Picture) -> Image {
 /// Where it is larger than a golden may be, or cannot be written.
 pub fn write(folder: &Path, key: &str, picture: &Picture) -> Result<PathBuf, String> {
     let Image { width, height, layers, .. } = picture.image;
-    if u64::from(width) * u64::from(height) * u64::from(layers) > u64::from(MOST_TEXELS) {
+    if !picture.fits_golden() {
         return Err(format!(
-            "{width}x{height}x{layers} texels are too many for a golden, which has {MOST_TEXELS} at most"
+            "{width}x{height}x{layers} texels are too many for a golden: {MOST_SIDE}x{MOST_SIDE} in all layers at most"
         ));
     }
     let path = folder.join(file_name(key, picture.class));
@@ -110,6 +114,18 @@ pub fn write(folder: &Path, key: &str, picture: &Picture) -> Result<PathBuf, Str
 fn precision(image: &Image) -> Precision {
     let survives = |value: &f32| f16::from_f32(*value).to_f32().to_bits() == value.to_bits();
     if image.data.iter().all(survives) { Precision::Half } else { Precision::Float }
+}
+
+/// Records of goldens that no tap claims and of which there is no file: what was made is gone, and so is who asked for it.
+pub fn orphan_records(folder: &Path, claimed: &BTreeSet<String>, records: &Records) -> Vec<String> {
+    let is_claimed = |key: &str| claimed.iter().any(|name| stem(name) == key);
+    let is_there = |key: &str| ["exr", "png"].iter().any(|suffix| folder.join(format!("{key}.{suffix}")).exists());
+    records.keys().filter(|key| !is_claimed(key) && !is_there(key)).map(str::to_owned).collect()
+}
+
+/// The name of a golden, by that of its file.
+pub fn stem(file_name: &str) -> &str {
+    file_name.rsplit_once('.').map_or(file_name, |(stem, _)| stem)
 }
 
 /// Files in a folder of goldens that no tap claims.

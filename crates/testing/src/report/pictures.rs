@@ -5,73 +5,99 @@ use std::path::Path;
 use tyndall_graph::descriptor::Class;
 use tyndall_image::{Error, Image, Meaning, NewFolder, encode_png, srgb_from_linear};
 
-use crate::outcome::PortOutcome;
+use crate::metric::{Compared, Metric};
+use crate::outcome::{PortOutcome, Untapped};
 use crate::picture::Picture;
 
 /// Multiples of the tolerance at which failing pixels are shown.
 pub(super) const MULTIPLES: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
 
-/// What is shown of a port.
+/// A picture that is shown.
 pub(super) struct Shown {
-    /// There is a picture of what came out.
-    pub actual: bool,
-    /// There is one of what was expected, and of the difference.
-    pub compared: bool,
+    /// What the names of its files begin with, in the folder of the test.
+    pub stem: String,
+    /// How many numbers of what came out lie in each of equal ranges.
+    pub histogram: Vec<usize>,
+    /// From where to where the ranges go.
+    pub range: (f32, f32),
+    /// What was expected, where it is held against that.
+    pub against: Option<Against>,
+}
+
+/// What was expected, and how far what came out is from it.
+pub(super) struct Against {
     /// Pixels beyond each multiple of the tolerance.
     pub failing: [usize; 4],
     /// Pixels in all.
     pub pixels: usize,
     /// The largest difference, over the tolerance: what is white in the picture of the difference.
     pub largest: f64,
-    /// How many numbers of what came out, and of what was expected, lie in each of equal ranges.
-    pub histograms: [Vec<usize>; 2],
-    /// From where to where the ranges go.
-    pub range: (f32, f32),
+    /// How many numbers of what was expected lie in each of the ranges.
+    pub histogram: Vec<usize>,
 }
 
-/// Writes the pictures of a port into the folder `name` of a report, and gives what is shown of it.
-pub(super) fn write(report: &NewFolder, name: &str, port: &PortOutcome) -> Result<Shown, Error> {
-    let mut shown = Shown {
-        actual: false,
-        compared: false,
-        failing: [0; 4],
-        pixels: 0,
-        largest: 0.0,
-        histograms: [Vec::new(), Vec::new()],
-        range: (0.0, 0.0),
-    };
-    let Some(actual) = &port.actual else { return Ok(shown) };
-    let save = |what: &str, image: &Image| {
-        let path = format!("{name}/{}.{}.{what}.png", port.name, port.frame);
-        report.write(&path, &encode_png(Path::new(&path), image, Meaning::Display)?)
-    };
-    let exposure = Exposure::of(port.expected.as_ref().unwrap_or(actual));
-    save("actual", &exposure.shown(actual))?;
-    shown.actual = true;
-    shown.range = exposure.range;
-    shown.histograms[0] = histogram(actual, exposure.range);
-    let same_size = |expected: &&Picture| expected.image.data.len() == actual.image.data.len();
-    if let (Some(expected), Some(metric)) = (port.expected.as_ref().filter(same_size), port.metric) {
-        let scale = metric.scale(expected);
-        let excess = excess(actual, expected, scale);
-        let (width, height) = flat(&actual.image);
-        let finite = excess.iter().copied().filter(|excess| excess.is_finite());
-        shown.largest = finite.fold(10.0, f64::max);
-        save("expected", &exposure.shown(expected))?;
-        save(
-            "difference",
-            &Image::new(width, height, 3, excess.iter().flat_map(|excess| heat(*excess, shown.largest)).collect()),
-        )?;
-        for (index, multiple) in MULTIPLES.into_iter().enumerate() {
-            shown.failing[index] = excess.iter().filter(|excess| **excess > multiple).count();
-        }
-        let level = |excess: &f64| MULTIPLES.iter().filter(|multiple| excess > multiple).count();
-        save("failing", &Image::new(width, height, 3, excess.iter().flat_map(|excess| step(level(excess))).collect()))?;
-        shown.pixels = excess.len();
-        shown.histograms[1] = histogram(expected, exposure.range);
-        shown.compared = true;
+/// Where pictures of a test go.
+pub(super) struct Folder<'a> {
+    /// The report.
+    pub report: &'a NewFolder,
+    /// The folder of the test in it.
+    pub name: &'a str,
+}
+
+impl Folder<'_> {
+    /// A port that the test looks at: with its golden, where it has one.
+    pub fn port(&self, port: &PortOutcome) -> Result<Option<Shown>, Error> {
+        let Some(actual) = &port.actual else { return Ok(None) };
+        let expected = port.expected.as_ref().zip(port.metric);
+        self.show(format!("{}.{}", port.name, port.frame), actual, expected).map(Some)
     }
-    Ok(shown)
+
+    /// Two pictures that are too far apart.
+    pub fn compared(&self, stem: String, compared: &Compared) -> Result<Shown, Error> {
+        self.show(stem, &compared.actual, Some((&compared.expected, compared.metric)))
+    }
+
+    /// A port that the test does not look at.
+    pub fn untapped(&self, port: &Untapped) -> Result<(), Error> {
+        self.save(&format!("{}.{}", port.name, port.frame), "actual", &Exposure::of(&port.picture).shown(&port.picture))
+    }
+
+    fn save(&self, stem: &str, what: &str, image: &Image) -> Result<(), Error> {
+        let path = format!("{}/{stem}.{what}.png", self.name);
+        self.report.write(&path, &encode_png(Path::new(&path), image, Meaning::Display)?)
+    }
+
+    fn show(&self, stem: String, actual: &Picture, expected: Option<(&Picture, Metric)>) -> Result<Shown, Error> {
+        let like = |image: &Image| (image.width, image.height, image.layers, image.channels);
+        let expected = expected.filter(|(expected, _)| like(&expected.image) == like(&actual.image));
+        let exposure = Exposure::of(expected.map_or(actual, |(expected, _)| expected));
+        self.save(&stem, "actual", &exposure.shown(actual))?;
+        let against = expected.map(|(expected, metric)| self.against(&stem, actual, expected, metric, &exposure));
+        let histogram = histogram(actual, exposure.range);
+        Ok(Shown { stem, histogram, range: exposure.range, against: against.transpose()? })
+    }
+
+    fn against(
+        &self,
+        stem: &str,
+        actual: &Picture,
+        expected: &Picture,
+        metric: Metric,
+        exposure: &Exposure,
+    ) -> Result<Against, Error> {
+        let excess = excess(actual, expected, metric.scale(expected));
+        let (width, height) = flat(&actual.image);
+        let largest = excess.iter().copied().filter(|excess| excess.is_finite()).fold(10.0, f64::max);
+        let image = |colour: &dyn Fn(f64) -> [f32; 3]| {
+            Image::new(width, height, 3, excess.iter().flat_map(|excess| colour(*excess)).collect())
+        };
+        let level = |excess: f64| MULTIPLES.iter().filter(|multiple| excess > **multiple).count();
+        self.save(stem, "expected", &exposure.shown(expected))?;
+        self.save(stem, "difference", &image(&|excess| heat(excess, largest)))?;
+        self.save(stem, "failing", &image(&|excess| step(level(excess))))?;
+        let failing = MULTIPLES.map(|multiple| excess.iter().filter(|excess| **excess > multiple).count());
+        Ok(Against { failing, pixels: excess.len(), largest, histogram: histogram(expected, exposure.range) })
+    }
 }
 
 /// Layers below one another.

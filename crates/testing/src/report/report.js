@@ -19,7 +19,7 @@ for (const input of document.querySelectorAll("figure input[type=range]")) {
 // Of a graph that is wider than the window, the pass whose fault it is.
 const guilty = document.querySelector(".card.diverged");
 if (guilty) {
-    const graph = guilty.parentElement;
+    const graph = guilty.closest(".graph");
     graph.scrollLeft = guilty.offsetLeft + guilty.offsetWidth / 2 - graph.clientWidth / 2;
 }
 

@@ -103,7 +103,8 @@ impl Chain {
     /// Runs the test in a session of its own.
     pub fn run(&self, options: &Options) -> Outcome {
         let search = vec![SearchPath { path: self.path("plugins"), required: true }];
-        let mut session = Session::new(Vec::new(), search, None).unwrap_or_else(|error| panic!("{error}"));
+        let mut session =
+            Session::new(vec![tyndall_core::plugin], search, None).unwrap_or_else(|error| panic!("{error}"));
         session.run(&self.path("chain.test.ron"), options)
     }
 

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use tyndall_testing::{Options, Outcome, State};
+use tyndall_testing::{Options, Outcome, Robustness, Saved, State, summary};
 
 use crate::chain::{Chain, LINE};
 
@@ -36,6 +36,62 @@ fn a_golden_that_nobody_claims_fails_until_it_is_dropped() {
     let blessed = chain.run(&bless());
     assert!(blessed.blessed.iter().any(|line| line.contains("deleted")), "{:?}", blessed.blessed);
     assert!(chain.plain().passed());
+}
+
+/// A record outlives its golden and the pass that it was of: a failure of its own until it is dropped.
+#[test]
+fn a_record_of_what_is_gone_fails_until_it_is_dropped() {
+    let chain = Chain::new();
+    fs::remove_file(chain.path("chain.goldens/three.result.exr")).unwrap();
+    says(&chain.plain(), "and its record is still there");
+    let taps = ["start", "one", "two", "four", "five", "aside"];
+    let taps = taps.map(|pass| format!("\"{pass}.result\": (golden: RelativeRmse(1e-5))")).join(", ");
+    chain.test(&taps, "");
+    let outcome = chain.plain();
+    says(&outcome, "the record of the golden `three.result` has no file, and no tap claims it");
+    assert!(outcome.guilty().is_empty(), "{}", outcome.text());
+    assert!(chain.run(&bless()).passed());
+    assert!(chain.plain().passed());
+    assert!(!fs::read_to_string(chain.path("chain.goldens/goldens.ron")).unwrap().contains("three.result"));
+}
+
+/// Of a test that looks at several frames the command blesses the one that it is told beside, and no other.
+#[test]
+fn one_frame_is_blessed_by_itself() {
+    let chain = Chain::new();
+    chain.test("\"five.result\": (golden: RelativeRmse(1e-5))", "frames: [0, 3]");
+    fs::remove_dir_all(chain.path("chain.goldens")).unwrap();
+    let missing = chain.plain();
+    assert!(missing.text().contains("--tap five.result --frame 3 --bless"), "{}", missing.text());
+    let one = Options { tap: Some("five.result".to_owned()), frame: Some(3), ..bless() };
+    assert!(chain.run(&one).passed());
+    assert!(chain.path("chain.goldens/five.result.0003.exr").exists());
+    assert!(!chain.path("chain.goldens/five.result.0000.exr").exists());
+    let outcome = chain.plain();
+    let failing: Vec<u32> = outcome.ports.iter().filter(|port| !port.passed()).map(|port| port.frame).collect();
+    assert_eq!(failing, [0]);
+}
+
+/// Without goldens there is nothing that it could fail by: that is no success.
+#[test]
+fn a_test_of_goldens_alone_checks_nothing_without_them() {
+    let chain = Chain::new();
+    let without = Options { without_goldens: true, ..Options::default() };
+    let sized = Options { size: Some((8, 8)), ..Options::default() };
+    assert!(chain.run(&without).checked_nothing() && chain.run(&sized).checked_nothing());
+    assert!(!chain.plain().checked_nothing());
+    let again = Options { robustness: Robustness { repeat: 1, ..Robustness::default() }, ..without.clone() };
+    assert!(!chain.run(&again).checked_nothing(), "it was held against itself, bit by bit");
+    let found = [chain.run(&without), chain.plain()];
+    assert_eq!(summary::counts(&found), [1, 0, 1]);
+    let junit = summary::junit(&found);
+    assert!(
+        junit.contains("failures=\"0\" errors=\"0\" skipped=\"1\"") && junit.contains("<skipped message=\"nothing")
+    );
+    let json = summary::json("an adapter", &found, Saved::default());
+    assert_eq!((&json["checked_nothing"], &json["tests"][0]["passed"]), (&1.into(), &false.into()));
+    chain.test("\"*\": (golden: RelativeRmse(1e-5), properties: [Finite])", "");
+    assert!(!chain.run(&without).checked_nothing());
 }
 
 #[test]

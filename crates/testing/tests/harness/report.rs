@@ -2,9 +2,11 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use serde_json::{Value, json};
-use tyndall_testing::{Options, Report};
+use tyndall_plugin::SearchPath;
+use tyndall_testing::{Options, Report, Session};
 
 use crate::browser::Browser;
 use crate::chain::Chain;
@@ -26,7 +28,7 @@ fn report(folder: &Path) -> PathBuf {
         assert!(outcome.ports.iter().all(|port| port.actual.is_none()), "pictures are let go");
     }
     assert!(!folder.exists(), "a report that is not whole is not seen");
-    report.finish("an adapter", &[right, wrong]).unwrap()
+    report.finish("an adapter", &[right, wrong], &["a note".to_owned()]).unwrap()
 }
 
 /// Where people look at the screenshots.
@@ -51,8 +53,11 @@ fn the_report_opens_in_a_browser_and_its_slider_moves() {
     // The list of tests: the failed one first, with the pass that went wrong.
     browser.go(&index);
     let cells = browser.evaluate("[...document.querySelector('tbody tr').cells].map(c => c.innerText)");
-    assert!(cells[0].as_str().unwrap().contains("shifted by three pixels"), "{cells}");
-    assert_eq!((&cells[1], &cells[2]), (&json!("three"), &json!("four, five")));
+    assert!(cells[1].as_str().unwrap().contains("shifted by three pixels"), "{cells}");
+    assert_eq!((&cells[2], &cells[3]), (&json!("three"), &json!("four, five")));
+    all_images_are_there(&mut browser);
+    assert_eq!(browser.evaluate("document.querySelectorAll('tbody img').length"), json!(2));
+    assert!(browser.evaluate("document.querySelector('footer').innerText").as_str().unwrap().contains("a note"));
     for (scheme, width) in [("light", 1280), ("dark", 1280), ("dark", 420), ("light", 420)] {
         browser.prefer(scheme);
         browser.width(width);
@@ -99,6 +104,85 @@ fn the_report_opens_in_a_browser_and_its_slider_moves() {
     let elsewhere = |url: &&&str| !url.starts_with(&here) && !url.starts_with("data:") && **url != "about:blank";
     let requests = browser.requests();
     assert!(requests.len() > 10 && requests.iter().find(elsewhere).is_none(), "{requests:#?}");
+}
+
+/// A report of a test that looks at one port of six passes in six frames, at another against a picture that somebody else
+/// made, and from run to run.
+fn wide_report(folder: &Path) -> PathBuf {
+    let chain = Chain::new();
+    fs::copy(chain.path("chain.goldens/one.result.exr"), chain.path("theirs.exr")).unwrap();
+    let graph = fs::read_to_string(chain.path("chain.graph.ron")).unwrap();
+    let graph = graph.replace("\"aside\": (use: \"chain.five\"", "\"aside\": (use: \"core.scale\"");
+    chain.put("chain.graph.ron", &graph.replace("aside.result", "aside.scaled"));
+    let reference = "reference: (file: \"theirs.exr\", by: RelativeRmse(1e-4), provenance: \"another renderer\")";
+    let taps = format!("\"five.result\": (properties: [Finite]), \"three.result\": ({reference})");
+    let relation = "(about: \"twice the factor, twice the light\", runs: [{ \"aside.factor\": (3.0, 3.0, 3.0) }], expect: { \"aside.scaled\": Scaled(factor: 2.0, by: RelativeRmse(1e-6)) })";
+    chain.test(&taps, &format!("frames: [0, 1, 2, 3, 4, 5], relations: [{relation}]"));
+    fs::remove_dir_all(chain.path("chain.goldens")).unwrap();
+    let mut outcome = chain.run(&Options { for_report: true, ..Options::default() });
+    assert_eq!(outcome.guilty(), ["three", "aside"], "{}", outcome.text());
+    let report = Report::begin(folder).unwrap();
+    report.add(&mut outcome).unwrap();
+    report.finish("an adapter", &[outcome], &[]).unwrap()
+}
+
+/// What is left out by a filter is shown like what the test does not look at.
+#[test]
+fn a_filter_leaves_no_pass_without_a_picture() {
+    let chain = Chain::new();
+    let tap = Some("five.result".to_owned());
+    let outcome = chain.run(&Options { for_report: true, tap, ..Options::default() });
+    assert!(outcome.passed() && outcome.ports.len() == 1, "{}", outcome.text());
+    let names: Vec<&str> = outcome.untapped.iter().map(|port| port.name.as_str()).collect();
+    assert_eq!(names, ["start.result", "one.result", "two.result", "three.result", "four.result", "aside.result"]);
+    assert!(chain.plain().untapped.is_empty(), "they are rendered for a report alone");
+}
+
+/// What a pass took when it first ran is what it spares where it need not run again.
+#[test]
+fn sharing_tells_what_it_saves() {
+    let chain = Chain::new();
+    let search = vec![SearchPath { path: chain.path("plugins"), required: true }];
+    let mut session = Session::new(vec![tyndall_core::plugin], search, None).unwrap();
+    let mut run = || {
+        assert!(session.run(&chain.path("chain.test.ron"), &Options::default()).passed());
+        session.saved
+    };
+    let (first, second) = (run(), run());
+    assert_eq!((first.spared, first.spared_time), (0, Duration::ZERO));
+    assert_eq!((second.passes, second.spared), (14, 7));
+    assert!(second.spared_time > Duration::ZERO && second.spared_time < second.rendering, "{second:?}");
+    assert!(second.comparing > first.comparing && second.references == Duration::ZERO, "{second:?}");
+}
+
+/// A thumbnail for each port, whether the test looks at it or not, and none of them is cut off; whatever does not hold
+/// against a picture has a slider.
+#[test]
+fn every_port_is_seen_and_every_comparison_that_failed() {
+    let desk = tempfile::tempdir().unwrap();
+    let index = wide_report(&desk.path().join("report"));
+    let mut browser = Browser::open();
+    browser.width(1280);
+    browser.prefer("light");
+    browser.go(&index);
+    browser.photograph(&out("wide-index.png"));
+    let page = browser.evaluate("document.querySelector('tbody a').getAttribute('href')");
+    browser.go(&index.with_file_name(page.as_str().unwrap()));
+    all_images_are_there(&mut browser);
+    let seen = "[...document.querySelectorAll('.card')].map(card => [...card.querySelectorAll('img')].filter(i => { const a = i.getBoundingClientRect(), b = card.getBoundingClientRect(); return a.top >= b.top && a.bottom <= b.bottom && a.left >= b.left && a.right <= b.right; }).length)";
+    assert_eq!(browser.evaluate(seen), json!([6, 6, 6, 6, 6, 6, 6]));
+    let unseen = browser.evaluate("document.querySelectorAll('.card a.unseen').length");
+    assert_eq!(unseen, json!(5 * 6), "of those that the test does not look at");
+    let compared = "[...document.querySelectorAll('details')].map(d => d.querySelectorAll('.compare').length)";
+    assert_eq!(browser.evaluate(compared), json!([1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0]));
+    let heading = browser.evaluate("document.querySelector('details:not(.relation) h3').innerText");
+    assert_eq!(heading, json!("reference (another renderer)"));
+    for scheme in ["light", "dark"] {
+        browser.prefer(scheme);
+        browser.photograph(&out(&format!("wide-{scheme}.png")));
+    }
+    let complaints = browser.complaints();
+    assert!(complaints.is_empty(), "{complaints:#?}");
 }
 
 /// Which picture is seen at a part of the width of the first comparison.
@@ -177,7 +261,7 @@ fn a_report_is_written_whole_or_not_at_all() {
     fs::write(folder.join("stays"), "until another report takes its place").unwrap();
     drop(Report::begin(&folder).unwrap());
     assert_eq!(fs::read_to_string(folder.join("index.html")).unwrap(), before);
-    Report::begin(&folder).unwrap().finish("an adapter", &[]).unwrap();
+    Report::begin(&folder).unwrap().finish("an adapter", &[], &[]).unwrap();
     assert!(!folder.join("stays").exists());
     assert_eq!(fs::read_dir(desk.path()).unwrap().count(), 1);
     let mine = desk.path().join("mine");

@@ -1,0 +1,48 @@
+//! Another run of a relation, held against the test's own.
+
+use std::fmt::Write as _;
+
+use tyndall_document::{Diagnostic, Diagnostics};
+use tyndall_graph::Graph;
+use tyndall_render::Loaded;
+use tyndall_scene::Scene;
+
+use super::{Relation, TestFile};
+use crate::codes;
+use crate::digest::Digest;
+
+/// A relation between a run and the same run once more holds whatever a pass does: then its settings say what is the case
+/// anyway, and the mistake goes to `out`.
+pub fn check_run(file: &TestFile, relation: &Relation, own: &Loaded, other: &Loaded, out: &mut Diagnostics) {
+    let vacuous = |expected: &&super::Expectation| expected.change.holds_of_the_same_run();
+    let Some(expected) = relation.expect.iter().find(vacuous) else { return };
+    if changes(&own.graph, &other.graph) || told(own.scene.as_ref()) != told(other.scene.as_ref()) {
+        return;
+    }
+    let message = format!("a run sets what is set anyway, and so this of `{}` holds whatever comes out", expected.port);
+    let problem = Diagnostic::error(codes::VACUOUS_CHECK, file.place(expected.span), message);
+    out.push(problem.suggest("set something else in each of `runs`"));
+}
+
+fn changes(own: &Graph, other: &Graph) -> bool {
+    let pass = |pass: &tyndall_graph::Pass, other: &tyndall_graph::Pass| {
+        pass.enabled == other.enabled && pass.params == other.params
+    };
+    let mut passes = own.passes.node_weights().zip(other.passes.node_weights());
+    own.size != other.size || !passes.all(|(own, other)| pass(own, other))
+}
+
+/// All that a scene says.
+fn told(scene: Option<&Scene>) -> u64 {
+    struct Told(Digest);
+    impl std::fmt::Write for Told {
+        fn write_str(&mut self, text: &str) -> std::fmt::Result {
+            self.0.bytes(text.as_bytes());
+            Ok(())
+        }
+    }
+    let mut told = Told(Digest::default());
+    // Writing into it cannot fail.
+    let _ = write!(told, "{scene:?}");
+    told.0.finish()
+}
