@@ -17,6 +17,7 @@ pub mod quadrature;
 pub mod ray;
 pub mod reflection;
 pub mod scene;
+pub mod shadow_map;
 pub mod shadows;
 pub mod surface_table;
 
@@ -35,6 +36,7 @@ pub const MODULES: &[(&str, &str)] = &[
     ("ray", include_str!("ray.wgsl")),
     ("reflection", include_str!("reflection.wgsl")),
     ("scene", include_str!("scene.wgsl")),
+    ("shadow_map", include_str!("shadow_map.wgsl")),
     ("shadows", include_str!("shadows.wgsl")),
     ("surface_table", include_str!("surface_table.wgsl")),
     ("unfinished", include_str!("unfinished.wgsl")),

@@ -9,14 +9,16 @@
 //
 // The light-side extinction is exact, which engines leave out. A point cannot stand for a froxel that a lamp is in: over a
 // ball of radius a about the lamp the mean of 1/r^2 is 3/a^2, so r is floored at a/sqrt(3), and what the froxel scatters
-// in all is right. What remains is the method's own: one value for all of a froxel, and values mixed between froxels.
+// in all is right. Where shadows are asked for, a shadow map says of each point whether the light reaches it. What remains is the method's own: one value for all of a froxel, and values mixed between froxels.
 #import scene
 #import medium
 #import phase
 #import lights
+#import shadow_map
 #import "grid.wgsl"
 
 override points: u32 = 1;
+override shadows: bool = false;
 
 struct Params {
     width: u32,
@@ -31,6 +33,7 @@ var<uniform> camera: Camera;
 var<uniform> medium: Medium;
 var<uniform> phase: Phase;
 var<storage, read> lights: Lights;
+var shadow_map: texture_2d_array<f32>;
 var scattered: texture_storage_3d<rgba32float, write>;
 var<storage, read_write> grid: Grid;
 
@@ -58,6 +61,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let volume = solid_angle * (end * end * end - start * start * start) / (3.0 * f32(count));
     // 3/(4 pi)
     let a = pow(volume * 0.238732415, 1.0 / 3.0);
+    let tiles = tiles_of(lights.count, textureDimensions(shadow_map).x);
     var sum = vec3<f32>(0.0);
     // the middles of points^3 equal parts; why the test stands at the end: see shaders/airlight.wgsl
     var i = 0u;
@@ -69,7 +73,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         // a list without lights holds one of intensity 0
         var light = 0u;
         loop {
-            sum += scattered_by(lights.items[light], position, ray.direction, a * a / 3.0);
+            let by = lights.items[light];
+            let hidden = shadows && is_hidden_in_map(shadow_map, tiles, by, light, position);
+            sum += select(scattered_by(by, position, ray.direction, a * a / 3.0), vec3<f32>(0.0), hidden);
             light++;
             if light >= lights.count { break; }
         }

@@ -5,7 +5,8 @@
 //   w               sin^2 of half the scattering angle, (r + s)/(2 r), known to 1e-7: of lobes with g above 0.99 the peak
 //                   is off by 0.3 % and more, as 1e-7 is no longer small beside ((1-g)/(1+g))^2
 //
-// Where shadows are asked for, a ray at the triangles says of every point whether the light reaches it.
+// Where shadows are asked for, a ray at the triangles says of every point whether the light reaches it; or, with `maps`, a
+// shadow map does, as in engines.
 //
 // L = sum over the steps of sigma_s p(w) I/r^2 e^(-sigma_t (x + r)) dx, to the surface or to MARCH_DEPTH.
 #import scene
@@ -15,6 +16,7 @@
 #import cone
 #import airlight
 #import occluders
+#import shadow_map
 #import unfinished
 
 // Optical depth along the ray, of the channel of least extinction, at which the march ends.
@@ -25,12 +27,14 @@ var<private> stopped: bool = false;
 
 override steps: u32 = 256;
 override shadows: bool = false;
+override maps: bool = false;
 
 var<uniform> camera: Camera;
 var<uniform> medium: Medium;
 var<uniform> phase: Phase;
 var<storage, read> lights: Lights;
 var depth: texture_2d<f32>;
+var shadow_map: texture_2d_array<f32>;
 var radiance: texture_storage_2d<rgba32float, write>;
 
 // What there is at a point x metres along the ray.
@@ -50,23 +54,35 @@ fn sample_at(x: f32, beside: LightBesideRay, scattering: Phase) -> Sample {
     return Sample(phase_at(scattering, w) * inverse_r * inverse_r, x + r, s * inverse_r, beside.h * inverse_r);
 }
 
-// Of the steps from this one on those that the light does not reach, as bits; looked up anew for every 32nd step.
-fn hidden_steps(known: u32, light: Light, ray: Ray, step: u32, dx: f32) -> u32 {
+// A light of the list, and its place in the shadow map.
+struct Marched {
+    light: Light,
+    index: u32,
+    tiles: Tiles,
+}
+
+// Of the steps from this one on those that the light does not reach, as bits: of rays looked up anew for every 32nd step,
+// of a map this step alone.
+fn hidden_steps(known: u32, marched: Marched, ray: Ray, step: u32, dx: f32) -> u32 {
     var hidden = known >> 1u;
-    if shadows && step % 32u == 0u {
-        hidden = hidden_points(light, ray, (f32(step) + 0.5) * dx, dx);
+    let x = (f32(step) + 0.5) * dx;
+    if shadows && maps {
+        hidden = u32(is_hidden_in_map(shadow_map, marched.tiles, marched.light, marched.index, ray.origin + x * ray.direction));
+    } else if shadows && step % 32u == 0u {
+        hidden = hidden_points(marched.light, ray, x, dx);
     }
     return hidden;
 }
 
-fn march_point(light: Light, beside: LightBesideRay, scattering: Phase, ray: Ray, way: f32) -> vec3<f32> {
+fn march_point(marched: Marched, beside: LightBesideRay, scattering: Phase, ray: Ray, way: f32) -> vec3<f32> {
+    let light = marched.light;
     let dx = way / f32(steps);
     let count = select(0u, steps, light.kind == POINT);
     var sum = vec3<f32>(0.0);
     var hidden = 0u;
     var i = 0u;
     for (; i < count; i++) {
-        hidden = hidden_steps(hidden, light, ray, i, dx);
+        hidden = hidden_steps(hidden, marched, ray, i, dx);
         let point = sample_at((f32(i) + 0.5) * dx, beside, scattering);
         sum += f32(~hidden & 1u) * point.density * exp(-medium.extinction * point.path);
     }
@@ -74,7 +90,8 @@ fn march_point(light: Light, beside: LightBesideRay, scattering: Phase, ray: Ray
     return medium.scattering * light.intensity * sum * dx;
 }
 
-fn march_spot(light: Light, beside: LightBesideRay, scattering: Phase, ray: Ray, way: f32) -> vec3<f32> {
+fn march_spot(marched: Marched, beside: LightBesideRay, scattering: Phase, ray: Ray, way: f32) -> vec3<f32> {
+    let light = marched.light;
     let dx = way / f32(steps);
     let count = select(0u, steps, light.kind == SPOT);
     let along = dot(light.direction, ray.direction);
@@ -83,7 +100,7 @@ fn march_spot(light: Light, beside: LightBesideRay, scattering: Phase, ray: Ray,
     var hidden = 0u;
     var i = 0u;
     for (; i < count; i++) {
-        hidden = hidden_steps(hidden, light, ray, i, dx);
+        hidden = hidden_steps(hidden, marched, ray, i, dx);
         let point = sample_at((f32(i) + 0.5) * dx, beside, scattering);
         let falloff = spot_falloff(light, along * point.sine + across * point.cosine);
         sum += f32(~hidden & 1u) * point.density * falloff * exp(-medium.extinction * point.path);
@@ -93,7 +110,8 @@ fn march_spot(light: Light, beside: LightBesideRay, scattering: Phase, ray: Ray,
 }
 
 // The irradiance of a directional light reaches every point unattenuated.
-fn march_directional(light: Light, scattering: Phase, ray: Ray, way: f32) -> vec3<f32> {
+fn march_directional(marched: Marched, scattering: Phase, ray: Ray, way: f32) -> vec3<f32> {
+    let light = marched.light;
     let half_sum = 0.5 * (light.direction + ray.direction);
     let dx = way / f32(steps);
     let count = select(0u, steps, light.kind == DIRECTIONAL);
@@ -101,7 +119,7 @@ fn march_directional(light: Light, scattering: Phase, ray: Ray, way: f32) -> vec
     var hidden = 0u;
     var i = 0u;
     for (; i < count; i++) {
-        hidden = hidden_steps(hidden, light, ray, i, dx);
+        hidden = hidden_steps(hidden, marched, ray, i, dx);
         sum += f32(~hidden & 1u) * exp(-medium.extinction * ((f32(i) + 0.5) * dx));
     }
     stopped = stopped || i < count;
@@ -117,15 +135,16 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let way = min(textureLoad(depth, id.xy, 0).x, MARCH_DEPTH / least);
     // read here: compilers do not move this out of a loop over points
     let scattering = phase;
+    let tiles = tiles_of(count, textureDimensions(shadow_map).x);
     var sum = vec3<f32>(0.0);
     // a list without lights holds one of intensity 0; why the test stands at the end: see shaders/airlight.wgsl
     var i = 0u;
     loop {
-        let light = lights.items[i];
-        let beside = light_beside_ray(light, ray);
-        sum += march_point(light, beside, scattering, ray, way);
-        sum += march_spot(light, beside, scattering, ray, way);
-        sum += march_directional(light, scattering, ray, way);
+        let marched = Marched(lights.items[i], i, tiles);
+        let beside = light_beside_ray(marched.light, ray);
+        sum += march_point(marched, beside, scattering, ray, way);
+        sum += march_spot(marched, beside, scattering, ray, way);
+        sum += march_directional(marched, scattering, ray, way);
         i++;
         if i >= count { break; }
     }

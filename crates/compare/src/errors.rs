@@ -11,8 +11,10 @@ pub(crate) const FLOOR: f64 = 0.01;
 /// Errors of one picture.
 #[derive(Debug, Clone)]
 pub(crate) struct Errors {
-    /// Over all channels of all pixels; `None` of a picture without pixels.
+    /// Over all channels of all pixels but those on outlines; `None` of a picture without pixels.
     pub percentiles: Option<Percentiles>,
+    /// Of the sum of all pixels: of its worst channel, relative to the true sum.
+    pub sum: f64,
     /// Of the worst channel of each pixel.
     pub of_pixels: Vec<f64>,
 }
@@ -22,12 +24,32 @@ impl Errors {
     pub fn new(found: &[[f32; 3]], truth: &Truth) -> Self {
         let floor = FLOOR * truth.mean();
         let pixels = found.iter().zip(&truth.pixels);
-        let mut values: Vec<f64> = pixels
-            .flat_map(|(found, wanted)| [0, 1, 2].map(|channel| relative(found[channel], wanted[channel], floor)))
+        let errors: Vec<[f64; 3]> = pixels
+            .map(|(found, wanted)| [0, 1, 2].map(|channel| relative(found[channel], wanted[channel], floor)))
             .collect();
-        let of_pixels = values.chunks_exact(3).map(|pixel| pixel.iter().copied().fold(0.0, f64::max)).collect();
-        Self { percentiles: percentiles(&mut values), of_pixels }
+        let of_pixels = errors.iter().map(|pixel| pixel.iter().copied().fold(0.0, f64::max)).collect();
+        let is_edge = |pixel: usize| truth.edges.as_ref().is_some_and(|edges| edges[pixel]);
+        let compared = errors.iter().enumerate().filter(|(pixel, _)| !is_edge(*pixel));
+        let mut values: Vec<f64> = compared.flat_map(|(_, errors)| *errors).collect();
+        Self { percentiles: percentiles(&mut values), sum: sum(found, truth), of_pixels }
     }
+}
+
+/// What the sum of a picture errs by; of a black truth what is not black is infinitely wrong.
+fn sum(found: &[[f32; 3]], truth: &Truth) -> f64 {
+    let of_channel = |channel: usize| {
+        let found: f64 = found.iter().map(|pixel| f64::from(pixel[channel])).sum();
+        let wanted: f64 = truth.pixels.iter().map(|pixel| pixel[channel]).sum();
+        let error = (found - wanted).abs() / wanted.abs();
+        if found == wanted {
+            0.0
+        } else if error.is_nan() {
+            f64::INFINITY
+        } else {
+            error
+        }
+    };
+    (0..3).map(of_channel).fold(0.0, f64::max)
 }
 
 /// |found − wanted|/max(|wanted|, floor); what is no number is infinitely wrong.
@@ -50,7 +72,7 @@ mod tests {
 
     /// 100 grey pixels from 1 to 100; their mean is 50.5.
     fn ramp() -> Truth {
-        Truth { pixels: (1..=100).map(|n| DVec3::splat(f64::from(n))).collect() }
+        Truth { pixels: (1..=100).map(|n| DVec3::splat(f64::from(n))).collect(), edges: None }
     }
 
     fn found(change: impl Fn(usize, f64) -> f64) -> Errors {
@@ -83,9 +105,20 @@ mod tests {
 
     #[test]
     fn what_is_dark_is_compared_with_a_part_of_the_mean() {
-        let truth = Truth { pixels: vec![DVec3::ZERO, DVec3::splat(200.0)] };
+        let truth = Truth { pixels: vec![DVec3::ZERO, DVec3::splat(200.0)], edges: None };
         let errors = Errors::new(&[[0.0, 0.0, 0.5], [200.0; 3]], &truth);
         assert_eq!(errors.of_pixels, [0.5 / (FLOOR * 100.0), 0.0]);
+    }
+
+    /// What is wrong on an outline shows in the sum and on the map, and in no percentile.
+    #[test]
+    fn outlines_are_left_to_the_sum() {
+        let pixels = vec![DVec3::splat(1.0); 4];
+        let truth = Truth { pixels, edges: Some(vec![false, true, false, false]) };
+        let errors = Errors::new(&[[1.0; 3], [3.0; 3], [1.0; 3], [1.0; 3]], &truth);
+        assert_eq!((errors.percentiles.unwrap().max, errors.sum, errors.of_pixels[1]), (0.0, 0.5, 2.0));
+        let errors = Errors::new(&[[1.0; 3], [1.0; 3], [1.0; 3], [1.0, 1.0, 2.0]], &truth);
+        assert_eq!((errors.percentiles.unwrap().max, errors.sum), (1.0, 0.25));
     }
 
     #[test]
@@ -93,7 +126,7 @@ mod tests {
         for wrong in [f64::NAN, f64::INFINITY] {
             assert_eq!(found(|index, value| if index == 0 { wrong } else { value }).of_pixels[0], f64::INFINITY);
         }
-        let black = Truth { pixels: vec![DVec3::ZERO] };
+        let black = Truth { pixels: vec![DVec3::ZERO], edges: None };
         assert_eq!(Errors::new(&[[0.0; 3]], &black).of_pixels, [0.0]);
         assert_eq!(Errors::new(&[[1e-9, 0.0, 0.0]], &black).of_pixels, [f64::INFINITY]);
     }

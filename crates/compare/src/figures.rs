@@ -12,6 +12,8 @@ pub(crate) struct Figures {
     pub about: String,
     /// What was compared: `airlight`.
     pub output: &'static str,
+    /// Whether what casts shadows does so.
+    pub shadows: bool,
     pub adapter: String,
     pub size: (u32, u32),
     pub rounds: u32,
@@ -45,28 +47,34 @@ pub(crate) struct SceneFigures {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Row {
     pub p50: f64,
+    pub p95: f64,
     pub p99: f64,
     pub max: f64,
+    /// Of the sum of the picture.
+    pub sum: f64,
     pub cost: Cost,
 }
 
 impl Row {
-    pub fn new(errors: Percentiles, cost: Cost) -> Self {
-        Self { p50: errors.p50, p99: errors.p99, max: errors.max, cost }
+    pub fn new((errors, sum): (Percentiles, f64), cost: Cost) -> Self {
+        Self { p50: errors.p50, p95: errors.p95, p99: errors.p99, max: errors.max, sum, cost }
     }
 
-    /// Of several scenes: the median p50, the worst p99 and max, the sum of times, the most bytes.
+    /// Of several scenes: the median p50, the worst of other errors, the sum of times, the most bytes.
     fn over(rows: &[Row]) -> Self {
         let worst = |of: fn(&Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
         let most = |of: fn(&Row) -> u64| rows.iter().map(of).max().unwrap_or_default();
         let mut p50: Vec<f64> = rows.iter().map(|row| row.p50).collect();
         Self {
             p50: median(&mut p50).unwrap_or_default(),
+            p95: worst(|row| row.p95),
             p99: worst(|row| row.p99),
             max: worst(|row| row.max),
+            sum: worst(|row| row.sum),
             cost: Cost {
                 frame_us: rows.iter().map(|row| row.cost.frame_us).sum(),
                 set_up_us: rows.iter().map(|row| row.cost.set_up_us).sum(),
+                scene_us: rows.iter().map(|row| row.cost.scene_us).sum(),
                 frame_bytes: most(|row| row.cost.frame_bytes),
                 set_up_bytes: most(|row| row.cost.set_up_bytes),
             },
@@ -77,9 +85,10 @@ impl Row {
         json!({
             "method": method.name,
             "graph": method.graph,
-            "error": { "p50": self.p50, "p99": self.p99, "max": self.max },
+            "error": { "p50": self.p50, "p95": self.p95, "p99": self.p99, "max": self.max, "sum": self.sum },
             "gpu_us": self.cost.frame_us,
             "set_up_us": self.cost.set_up_us,
+            "scene_us": self.cost.scene_us,
             "bytes": self.cost.frame_bytes,
             "set_up_bytes": self.cost.set_up_bytes,
         })
@@ -105,6 +114,7 @@ impl Figures {
         json!({
             "about": self.about,
             "output": self.output,
+            "shadows": self.shadows,
             "adapter": self.adapter,
             "size": [self.size.0, self.size.1],
             "rounds": self.rounds,

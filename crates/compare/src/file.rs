@@ -5,6 +5,7 @@
 //!     version: 1,
 //!     about: "What the page says it is for.",
 //!     output: "airlight",            // an output of every graph; its truth is known to the program
+//!     shadows: true,                 // false without it: whether what casts shadows hides lights from the truth
 //!     size: (320, 240),
 //!     scenes: {
 //!         "lamp": (scene: "scenes/lamp.scene.ron", about: "A lamp in view", set: { "scene.medium.albedo": (1, 1, 1) }),
@@ -42,6 +43,8 @@ pub struct CompareFile {
     pub(crate) light: Light,
     /// Where it says so.
     pub(crate) output_span: Span,
+    /// Whether what casts shadows hides lights from the truth.
+    pub(crate) shadows: bool,
     /// Of every picture, in pixels.
     pub size: (u32, u32),
     /// In the order of the file.
@@ -76,7 +79,7 @@ pub(crate) struct Setting {
 pub fn read(source: &Arc<Source>, out: &mut Diagnostics) -> Option<CompareFile> {
     let root = parse(source, out)?;
     let decoder = &mut Decoder::new(source, out);
-    let known = ["version", "about", "output", "size", "scenes", "methods"];
+    let known = ["version", "about", "output", "shadows", "size", "scenes", "methods"];
     let fields = decoder.fields(&root, "a comparison", &known)?;
     if let Some(node) = fields.required(decoder, "version") {
         version(decoder, node);
@@ -84,11 +87,13 @@ pub fn read(source: &Arc<Source>, out: &mut Diagnostics) -> Option<CompareFile> 
     let about = text(decoder, &fields, "about");
     let output = fields.required(decoder, "output");
     let light = output.and_then(|node| light(decoder, node));
+    let shadows = fields.get("shadows").is_some_and(|node| shadows(decoder, node, light));
     let size = fields.get("size").map_or(Some(SIZE), |node| size(decoder, node));
     let scenes = entries(decoder, &fields, ("scenes", "a scene"), "scene");
     let methods = entries(decoder, &fields, ("methods", "a method"), "graph");
     let output_span = output.map_or(root.span, |node| node.span);
-    Some(CompareFile { source: source.clone(), about, light: light?, output_span, size: size?, scenes, methods })
+    let (light, size) = (light?, size?);
+    Some(CompareFile { source: source.clone(), about, light, output_span, shadows, size, scenes, methods })
 }
 
 fn version(decoder: &mut Decoder<'_>, node: &Node) {
@@ -117,6 +122,18 @@ fn light(decoder: &mut Decoder<'_>, node: &Node) -> Option<Light> {
         );
     }
     light
+}
+
+/// Of surfaces there is no truth with shadows: the scattered part of their light has none by any method.
+fn shadows(decoder: &mut Decoder<'_>, node: &Node, light: Option<Light>) -> bool {
+    let wanted = decoder.bool(node).unwrap_or_default();
+    if wanted && light == Some(Light::Surface) {
+        let place = decoder.place(node.span);
+        let message = "there is no truth for shadows on surfaces to be compared with";
+        decoder
+            .report(Diagnostic::error(NO_TRUTH, place, message).suggest("compare `airlight`, or leave `shadows` out"));
+    }
+    wanted
 }
 
 fn size(decoder: &mut Decoder<'_>, node: &Node) -> Option<(u32, u32)> {

@@ -7,8 +7,10 @@
 //! | entries to checked scenes and planned graphs, without a GPU | [`prepare`] | [`PreparedScene`] |
 //! | pictures, truth, errors, times | [`compare`] | [`Comparison`] |
 //!
-//! The truth is computed by the twins of the shaders (`tyndall_shaders`), whatever the methods do.
+//! The truth is computed by the twins of the shaders (`tyndall_shaders`), whatever the methods do. [`curves`] plots
+//! anything else that is measured.
 
+mod casters;
 mod codes;
 mod color;
 mod errors;
@@ -19,6 +21,7 @@ mod page;
 mod plot;
 mod prepare;
 mod report;
+mod round;
 mod run;
 mod table;
 #[cfg(test)]
@@ -27,6 +30,7 @@ mod truth;
 
 pub use codes::CODES;
 pub use file::{CompareFile, Entry, read};
+pub use plot::{Point, Quantity, Unit, curves};
 pub use prepare::{PreparedScene, prepare};
 pub use report::Comparison;
 pub use run::{Error, Progress, compare, steps};

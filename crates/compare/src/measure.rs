@@ -2,12 +2,14 @@
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
+use std::time::Instant;
 
 use tyndall_gpu::{FrameOptions, Gpu, PipelineCache, Timing};
 use tyndall_graph::Plan;
 use tyndall_image::metrics::median;
 use tyndall_plugin::Registry;
 use tyndall_render::{Error, Running};
+use tyndall_scene::{SCENE_DATA, Scene};
 
 use crate::prepare::PreparedMethod;
 
@@ -15,8 +17,12 @@ use crate::prepare::PreparedMethod;
 pub(crate) struct Measured<'p> {
     running: Running<'p>,
     own: Vec<OwnPass>,
+    scene: Option<&'p Scene>,
     frame_us: Vec<f64>,
     set_up_us: Vec<f64>,
+    scene_us: Vec<f64>,
+    /// Bytes of what is worked out of casters: once, and in each frame.
+    scene_bytes: (u64, u64),
 }
 
 /// A pass that the compared light depends on.
@@ -34,11 +40,17 @@ pub(crate) struct Cost {
     pub frame_us: Option<f64>,
     /// GPU time of what is computed once, µs.
     pub set_up_us: Option<f64>,
-    /// Of what is written in each frame.
+    /// CPU time, on one core, of working out all that passes read of casters: silhouettes and slices, or a hierarchy of
+    /// triangles, µs; `None` where no pass reads such.
+    pub scene_us: Option<f64>,
+    /// Of what is written in each frame, and of what follows the eye.
     pub frame_bytes: u64,
     /// Of what is computed once.
     pub set_up_bytes: u64,
 }
+
+/// Scene data that is worked out of casters: what follows the eye, and what stays.
+const CASTERS: [(&str, bool); 2] = [("shadow_", true), ("occluder_", false)];
 
 impl<'p> Measured<'p> {
     /// Makes the method ready and draws a first frame, so that no later one waits for a compiler.
@@ -52,7 +64,9 @@ impl<'p> Measured<'p> {
         running.frame(FrameOptions::default())?;
         gpu.wait()?;
         let own = own_passes(running.executor.plan());
-        Ok(Self { running, own, frame_us: Vec::new(), set_up_us: Vec::new() })
+        let (frame_us, set_up_us, scene_us) = (Vec::new(), Vec::new(), Vec::new());
+        let scene = method.scene.as_ref();
+        Ok(Self { running, own, scene, frame_us, set_up_us, scene_us, scene_bytes: (0, 0) })
     }
 
     /// Red, green and blue of every pixel of the compared picture, row by row from the top.
@@ -64,25 +78,61 @@ impl<'p> Measured<'p> {
         Ok(data.data.chunks_exact(channels).map(pixel).collect())
     }
 
-    /// Times each of the method's own passes once, alone on the GPU.
+    /// Times each pass that runs in every frame once, alone on the GPU; the first time also those whose result stays, which
+    /// may take long.
     pub fn time(&mut self) -> Result<(), Error> {
+        let is_first = self.frame_us.is_empty();
         let (mut frame, mut set_up) = (Some(0.0), Some(0.0));
-        for pass in &self.own {
+        for pass in self.own.iter().filter(|pass| is_first || !pass.is_set_up) {
             let timing = Timing::Pass(pass.position as usize);
-            let report = self.running.frame(FrameOptions { frame: 0, everything: true, timing, cpu_times: false })?;
+            // What it reads is kept. It runs where something needs it: so all that follows is forgotten, too.
+            for following in self.own.iter().filter(|other| other.position >= pass.position) {
+                self.running.executor.forget(following.position);
+            }
+            let report = self.running.frame(FrameOptions { timing, ..FrameOptions::default() })?;
             let sum = if pass.is_set_up { &mut set_up } else { &mut frame };
             *sum = sum.zip(report.gpu_us).map(|(sum, us)| sum + us);
         }
         self.frame_us.extend(frame);
-        self.set_up_us.extend(set_up);
+        self.set_up_us.extend(set_up.filter(|_| is_first));
+        self.time_scene();
         Ok(())
+    }
+
+    /// Times what is worked out of casters: all of it, less what else a scene is encoded to.
+    fn time_scene(&mut self) {
+        let plan = self.running.executor.plan();
+        let of_casters = |name: &str| CASTERS.iter().any(|(start, _)| name.starts_with(start));
+        let reads = |name: &str| plan.reads(name) && of_casters(name);
+        let Some(scene) = self.scene.filter(|_| SCENE_DATA.iter().any(|name| reads(name))) else { return };
+        let aspect = f64::from(plan.size.0) / f64::from(plan.size.1);
+        let timed = |reads: &dyn Fn(&str) -> bool| {
+            let start = Instant::now();
+            let encoded = scene.encode_for(0.0, aspect, reads);
+            (start.elapsed().as_secs_f64() * 1e6, encoded)
+        };
+        let ((rest, _), (all, encoded)) = (timed(&|_| false), timed(&reads));
+        self.scene_us.push((all - rest).max(0.0));
+        let bytes = |follows_eye: bool| {
+            let names = encoded.items.iter().filter(|(name, _)| {
+                CASTERS.iter().any(|(start, follows)| name.starts_with(start) && *follows == follows_eye && reads(name))
+            });
+            names.map(|(_, bytes)| bytes.len() as u64).sum()
+        };
+        self.scene_bytes = (bytes(false), bytes(true));
     }
 
     /// Medians of the times so far, and bytes.
     pub fn cost(&mut self) -> Cost {
         let plan = self.running.executor.plan();
         let (set_up_bytes, frame_bytes) = bytes(plan, &self.own);
-        Cost { frame_us: median(&mut self.frame_us), set_up_us: median(&mut self.set_up_us), frame_bytes, set_up_bytes }
+        Cost {
+            frame_us: median(&mut self.frame_us),
+            set_up_us: median(&mut self.set_up_us),
+            scene_us: median(&mut self.scene_us),
+            frame_bytes: frame_bytes + self.scene_bytes.1,
+            set_up_bytes: set_up_bytes + self.scene_bytes.0,
+        }
     }
 }
 

@@ -59,7 +59,7 @@ pub(crate) fn plot_of(figures: &Figures, title: &str, rows: &[Row], error: (&str
         .zip(rows)
         .filter_map(|(method, row)| {
             let time = row.cost.frame_us? / 1e3;
-            Some(Point { label: method.name.clone(), family: method.family, time, error: error.1(row) })
+            Some(Point { label: method.name.clone(), family: method.family, x: time, y: error.1(row) })
         })
         .collect();
     plot(title, error.0, &points)

@@ -1,19 +1,40 @@
-//! Error over time as an SVG: logarithmic axes, a mark for each method, the front that no other method passes.
+//! Plots as SVG, with logarithmic axes: error over time, with a mark for each method and the front that no other method
+//! passes; and any quantity over another.
 
 use std::fmt::Write;
 
 use crate::page::escaped;
 
-/// One method.
+/// A mark.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Point {
+pub struct Point {
+    /// What stands beside it; nothing does where it is empty.
     pub label: String,
     /// Marks of one family look alike and are joined in their order.
     pub family: usize,
-    /// ms.
-    pub time: f64,
-    pub error: f64,
+    /// Where it stands on the axis to the right.
+    pub x: f64,
+    /// Where it stands on the axis upward.
+    pub y: f64,
 }
+
+/// What the numbers of an axis are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// ms.
+    Milliseconds,
+    /// Parts of one, written as percent.
+    Percent,
+    /// A number of things.
+    Count,
+    /// MiB.
+    Mebibytes,
+    /// One quantity over another.
+    Ratio,
+}
+
+/// An axis: what it says, and in which unit.
+pub type Quantity<'a> = (&'a str, Unit);
 
 const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 470.0;
@@ -49,23 +70,12 @@ const STYLE: &str = "
 ";
 const FAMILIES: usize = 6;
 
-/// The plot, or `None` where no method has a time. `error_name` says which error it is.
+/// Error over the GPU time of a frame, ms, or `None` where no method has a time. `error_name` says which error it is.
 pub(crate) fn plot(title: &str, error_name: &str, points: &[Point]) -> Option<String> {
-    let points: Vec<Point> = points
-        .iter()
-        .filter(|point| point.time.is_finite() && point.time > 0.0)
-        .map(|point| Point { error: at_least(point.error), ..point.clone() })
-        .collect();
-    let x = Axis::around(points.iter().map(|point| point.time), LEFT, WIDTH - RIGHT)?;
-    let y = Axis::around(points.iter().map(|point| point.error), HEIGHT - BOTTOM, TOP)?;
-    let mut svg = String::new();
-    svg += &format!(
-        "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" \
-         aria-label=\"{0}\">\n<style>{STYLE}</style>\n<text class=\"title\" x=\"{LEFT}\" y=\"16\">{0}</text>\n\
-         <text x=\"{LEFT}\" y=\"33\">Line, and filled: no method is both faster and closer</text>\n",
-        escaped(title)
-    );
-    grid(&mut svg, &x, &y, error_name);
+    let points: Vec<Point> = timed(points).map(|point| Point { y: at_least(point.y), ..point.clone() }).collect();
+    let (x, y) = axes(&points)?;
+    let mut svg = start(title, "Line, and filled: no method is both faster and closer");
+    grid(&mut svg, &x, &y, [("GPU time of a frame", Unit::Milliseconds), (error_name, Unit::Percent)]);
     let front = front(&points);
     step(&mut svg, &x, &y, &front);
     families(&mut svg, &x, &y, &points);
@@ -73,8 +83,51 @@ pub(crate) fn plot(title: &str, error_name: &str, points: &[Point]) -> Option<St
         mark(&mut svg, &x, &y, point, front.contains(&point));
     }
     labels(&mut svg, &x, &y, &points, &front);
-    svg += "</svg>\n";
-    Some(svg)
+    Some(svg + "</svg>\n")
+}
+
+/// One quantity over another as an SVG: a line with marks for each family. `note` stands below the title; `rule` is a value
+/// upward at which a line runs across. `None` where there is no point whose numbers are above 0.
+pub fn curves(
+    (title, note): (&str, &str),
+    [across, upward]: [Quantity<'_>; 2],
+    rule: Option<f64>,
+    points: &[Point],
+) -> Option<String> {
+    let points: Vec<Point> = timed(points).filter(|point| point.y.is_finite() && point.y > 0.0).cloned().collect();
+    let ruled = rule.and_then(|rule| Some(Point { y: rule, ..points.first()?.clone() }));
+    let (x, y) = axes(&points.iter().cloned().chain(ruled).collect::<Vec<_>>())?;
+    let mut svg = start(title, note);
+    grid(&mut svg, &x, &y, [across, upward]);
+    if let Some(rule) = rule {
+        svg += &format!("<path class=\"front\" d=\"M{LEFT} {:.1}H{}\"/>\n", y.at(rule), WIDTH - RIGHT);
+    }
+    families(&mut svg, &x, &y, &points);
+    for point in &points {
+        mark(&mut svg, &x, &y, point, true);
+    }
+    labels(&mut svg, &x, &y, &points, &[]);
+    Some(svg + "</svg>\n")
+}
+
+/// The points that have a place on a logarithmic axis to the right.
+fn timed(points: &[Point]) -> impl Iterator<Item = &Point> {
+    points.iter().filter(|point| point.x.is_finite() && point.x > 0.0)
+}
+
+fn axes(points: &[Point]) -> Option<(Axis, Axis)> {
+    let x = Axis::around(points.iter().map(|point| point.x), LEFT, WIDTH - RIGHT)?;
+    Some((x, Axis::around(points.iter().map(|point| point.y), HEIGHT - BOTTOM, TOP)?))
+}
+
+fn start(title: &str, note: &str) -> String {
+    format!(
+        "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" \
+         aria-label=\"{0}\">\n<style>{STYLE}</style>\n<text class=\"title\" x=\"{LEFT}\" y=\"16\">{0}</text>\n\
+         <text x=\"{LEFT}\" y=\"33\">{1}</text>\n",
+        escaped(title),
+        escaped(note)
+    )
 }
 
 fn at_least(error: f64) -> f64 {
@@ -111,18 +164,18 @@ impl Axis {
     }
 }
 
-fn grid(svg: &mut String, x: &Axis, y: &Axis, error_name: &str) {
+fn grid(svg: &mut String, x: &Axis, y: &Axis, [across, upward]: [Quantity<'_>; 2]) {
     let (right, bottom) = (WIDTH - RIGHT, HEIGHT - BOTTOM);
     for decade in x.decades() {
         let at = x.at(10f64.powi(decade));
-        let (text, below) = (milliseconds(decade), bottom + 18.0);
+        let (text, below) = (across.1.text(decade), bottom + 18.0);
         *svg += &format!(
             "<path class=\"grid\" d=\"M{at:.1} {TOP}V{bottom}\"/><text x=\"{at:.1}\" y=\"{below}\" text-anchor=\"middle\">{text}</text>\n"
         );
     }
     for decade in y.decades() {
         let at = y.at(10f64.powi(decade));
-        let (text, before) = (percent(decade), LEFT - 8.0);
+        let (text, before) = (upward.1.text(decade), LEFT - 8.0);
         *svg += &format!(
             "<path class=\"grid\" d=\"M{LEFT} {at:.1}H{right}\"/><text x=\"{before}\" y=\"{:.1}\" text-anchor=\"end\">{text}</text>\n",
             at + 4.0
@@ -130,12 +183,29 @@ fn grid(svg: &mut String, x: &Axis, y: &Axis, error_name: &str) {
     }
     *svg += &format!("<path class=\"frame\" d=\"M{LEFT} {TOP}V{bottom}H{right}\"/>\n");
     let (middle, end) = (0.5 * (LEFT + right), HEIGHT - 12.0);
-    *svg += &format!("<text x=\"{middle}\" y=\"{end}\" text-anchor=\"middle\">GPU time of a frame</text>\n");
+    *svg += &format!("<text x=\"{middle}\" y=\"{end}\" text-anchor=\"middle\">{}</text>\n", escaped(across.0));
     let middle = 0.5 * (TOP + bottom);
     *svg += &format!(
         "<text transform=\"translate(16 {middle}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-        escaped(error_name)
+        escaped(upward.0)
     );
+}
+
+impl Unit {
+    /// A power of ten.
+    fn text(self, decade: i32) -> String {
+        match self {
+            Self::Milliseconds => milliseconds(decade),
+            Self::Percent => percent(decade),
+            Self::Mebibytes => format!("{} MiB", 10f64.powi(decade)),
+            Self::Count => match decade {
+                6.. => format!("{} M", 10f64.powi(decade - 6)),
+                3.. => format!("{} k", 10f64.powi(decade - 3)),
+                _ => format!("{}", 10f64.powi(decade)),
+            },
+            Self::Ratio => format!("{}×", 10f64.powi(decade)),
+        }
+    }
 }
 
 fn milliseconds(decade: i32) -> String {
@@ -158,11 +228,11 @@ fn percent(decade: i32) -> String {
 /// The methods that no other one passes in time and error both, by time.
 pub(crate) fn front(points: &[Point]) -> Vec<&Point> {
     let mut sorted: Vec<&Point> = points.iter().collect();
-    sorted.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.error.total_cmp(&b.error)));
+    sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let mut least = f64::INFINITY;
     sorted.retain(|point| {
-        let passes = point.error < least;
-        least = least.min(point.error);
+        let passes = point.y < least;
+        least = least.min(point.y);
         passes
     });
     sorted
@@ -171,20 +241,20 @@ pub(crate) fn front(points: &[Point]) -> Vec<&Point> {
 /// The edge of what is reached: from the fastest method to the right and down.
 fn step(svg: &mut String, x: &Axis, y: &Axis, front: &[&Point]) {
     let Some(first) = front.first() else { return };
-    let mut path = format!("M{:.1} {TOP}", x.at(first.time));
+    let mut path = format!("M{:.1} {TOP}", x.at(first.x));
     for point in front {
         // a String takes all that is written to it
-        let _ = write!(path, "H{:.1}V{:.1}", x.at(point.time), y.at(point.error));
+        let _ = write!(path, "H{:.1}V{:.1}", x.at(point.x), y.at(point.y));
     }
     *svg += &format!("<path class=\"front\" d=\"{path}H{}\"/>\n", WIDTH - RIGHT);
 }
 
 /// Where the front runs level, a little higher than its line.
 fn treads(x: &Axis, y: &Axis, front: &[&Point]) -> Vec<Area> {
-    let ends = front.iter().skip(1).map(|point| x.at(point.time)).chain([WIDTH - RIGHT]);
+    let ends = front.iter().skip(1).map(|point| x.at(point.x)).chain([WIDTH - RIGHT]);
     let tread = |(point, end): (&&Point, f64)| {
-        let start = x.at(point.time);
-        Area { x: start, y: y.at(point.error) - 2.0, width: end - start, height: 4.0 }
+        let start = x.at(point.x);
+        Area { x: start, y: y.at(point.y) - 2.0, width: end - start, height: 4.0 }
     };
     front.iter().zip(ends).map(tread).collect()
 }
@@ -193,8 +263,7 @@ fn families(svg: &mut String, x: &Axis, y: &Axis, points: &[Point]) {
     let count = points.iter().map(|point| point.family + 1).max().unwrap_or_default();
     for family in 0..count {
         let members = points.iter().filter(|point| point.family == family);
-        let path: Vec<String> =
-            members.map(|point| format!("{:.1} {:.1}", x.at(point.time), y.at(point.error))).collect();
+        let path: Vec<String> = members.map(|point| format!("{:.1} {:.1}", x.at(point.x), y.at(point.y))).collect();
         if path.len() > 1 {
             *svg += &format!("<path class=\"family f{}\" d=\"M{}\"/>\n", family % FAMILIES, path.join("L"));
         }
@@ -210,8 +279,8 @@ fn mark(svg: &mut String, x: &Axis, y: &Axis, point: &Point, is_on_front: bool) 
         _ => "M0 -6L5.5 4H-5.5Z",
     };
     let (fill, family) = (if is_on_front { "on" } else { "off" }, point.family % FAMILIES);
-    let (at_x, at_y) = (x.at(point.time), y.at(point.error));
-    let about = format!("{}: {} ms, {:e}", point.label, point.time, point.error);
+    let (at_x, at_y) = (x.at(point.x), y.at(point.y));
+    let about = format!("{}: {}, {:e}", point.label, point.x, point.y);
     *svg += &format!(
         "<path class=\"mark {fill} f{family}\" transform=\"translate({at_x:.1} {at_y:.1})\" d=\"{shape}\"><title>{}</title></path>\n",
         escaped(&about)
@@ -238,12 +307,11 @@ impl Area {
 /// Each label beside its mark, where it covers least of the marks, of the front and of the labels before it.
 fn labels(svg: &mut String, x: &Axis, y: &Axis, points: &[Point], front: &[&Point]) {
     let plot = Area { x: LEFT, y: TOP, width: WIDTH - RIGHT - LEFT, height: HEIGHT - BOTTOM - TOP };
-    let around =
-        |point: &Point| Area { x: x.at(point.time) - 6.0, y: y.at(point.error) - 6.0, width: 12.0, height: 12.0 };
+    let around = |point: &Point| Area { x: x.at(point.x) - 6.0, y: y.at(point.y) - 6.0, width: 12.0, height: 12.0 };
     let mut taken: Vec<Area> = points.iter().map(around).collect();
     taken.extend(treads(x, y, front));
-    for point in points {
-        let (at_x, at_y) = (x.at(point.time), y.at(point.error));
+    for point in points.iter().filter(|point| !point.label.is_empty()) {
+        let (at_x, at_y) = (x.at(point.x), y.at(point.y));
         // of 12 px letters
         let (width, height) = (6.4 * point.label.chars().count() as f64, 13.0);
         let places =
@@ -276,8 +344,8 @@ fn labels(svg: &mut String, x: &Axis, y: &Axis, points: &[Point], front: &[&Poin
 mod tests {
     use super::*;
 
-    fn point(label: &str, time: f64, error: f64) -> Point {
-        Point { label: label.to_owned(), family: 0, time, error }
+    fn point(label: &str, x: f64, y: f64) -> Point {
+        Point { label: label.to_owned(), family: 0, x, y }
     }
 
     #[test]
@@ -302,6 +370,19 @@ mod tests {
         let svg = plot("t", "p99", &points).unwrap();
         assert!(svg.contains("a &lt; b") && !svg.contains("NaN") && !svg.contains("inf"), "{svg}");
         assert_eq!(plot("t", "p99", &[point("a", f64::NAN, 0.1)]), None);
+    }
+
+    #[test]
+    fn a_curve_has_a_mark_for_each_point_and_names_for_some() {
+        let points = [point("", 12.0, 0.5), point("cost", 1.4e5, 30.0), point("none", 2.0, 0.0)];
+        let units = [("triangles", Unit::Count), ("ratio", Unit::Ratio)];
+        let svg = curves(("t", "n < m"), units, Some(1.0), &points).unwrap();
+        assert_eq!(svg.matches("class=\"mark").count(), 2);
+        assert_eq!((svg.matches("textLength").count(), svg.matches("class=\"front\"").count()), (1, 1));
+        for part in [">100 k<", ">0.1×<", "n &lt; m", ">cost</text>", ">triangles</text>"] {
+            assert!(svg.contains(part), "{part} in {svg}");
+        }
+        assert_eq!(curves(("t", ""), units, Some(1.0), &[]), None);
     }
 
     #[test]

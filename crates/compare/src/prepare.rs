@@ -16,7 +16,7 @@ use crate::file::{CompareFile, Entry, Setting};
 const GEOMETRY: &str = r#"(
     version: 1,
     passes: { "surfaces": (use: "core.gbuffer") },
-    outputs: { "depth": "surfaces.depth", "normal": "surfaces.normal", "material": "surfaces.material" },
+    outputs: { "depth": "surfaces.depth", "normal": "surfaces.normal", "material": "surfaces.material", "triangle": "surfaces.triangle" },
 )"#;
 
 /// A scene, and every method ready to draw it.
@@ -84,7 +84,7 @@ fn geometry(file: &CompareFile, scene: &Scene, registry: &Registry, out: &mut Di
     let graph = tyndall_graph::read(&source, out)?;
     let graph = tyndall_graph::validate(&graph, registry.catalogue(), &overrides, out)?;
     let loaded = Loaded { graph, scene: Some(scene.clone()), load_us: 0.0, validate_us: 0.0 };
-    plan(&loaded, Roots::Outputs, out)
+    plan(file, &loaded, Roots::Outputs, out)
 }
 
 /// The method's graph with the scene, planned for the port that is compared.
@@ -114,20 +114,25 @@ fn method<'f>(
     let plan = tyndall_render::load(&request, registry, &mut found).and_then(|loaded| {
         let place = file.source.place(file.output_span);
         let port = loaded.graph.find(file.light.output(), place).map_err(|mistake| found.push(mistake)).ok()?;
-        let plan = plan(&loaded, Roots::Ports(vec![port]), &mut found)?;
+        let plan = plan(file, &loaded, Roots::Ports(vec![port]), &mut found)?;
         is_picture(file, entry, &plan, &mut found).then_some((plan, loaded.scene))
     });
     out.extend(placed(file, &[entry, scene], found));
     plan.map(|(plan, scene)| PreparedMethod { entry, scene, plan })
 }
 
-/// What changes from frame to frame is the camera and the lights, so that what depends on neither is kept.
-fn plan(loaded: &Loaded, roots: Roots, out: &mut Diagnostics) -> Option<Plan> {
+/// What changes from frame to frame is the camera and the lights, so that what depends on neither is kept. Where shadows
+/// are compared lights and casters stand still: what is made once for a light, its shadow map say, is kept by all methods.
+fn plan(file: &CompareFile, loaded: &Loaded, roots: Roots, out: &mut Diagnostics) -> Option<Plan> {
     let mut options = PlanOptions::new(loaded.graph.size);
     options.roots = roots;
-    // What shadows of moving lights are made of moves with them.
-    let moving = ["camera", "lights", "shadow_lights", "shadow_slices", "shadow_crossings", "shadow_edges"];
-    let animated = moving.map(str::to_owned).into();
+    // What shadows are made of follows the eye.
+    let mut moving = vec!["camera", "shadow_lights", "shadow_slices", "shadow_crossings", "shadow_edges"];
+    if !file.shadows {
+        moving.push("lights");
+    }
+    let moving = moving.into_iter();
+    let animated = moving.map(str::to_owned).collect();
     options.keep = Keep::Edges { live: BTreeSet::new(), animated };
     tyndall_graph::plan(&loaded.graph, &options).map_err(|mistakes| out.extend(mistakes)).ok()
 }

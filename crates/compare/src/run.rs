@@ -6,7 +6,10 @@ use std::sync::Arc;
 use tyndall_gpu::{FrameOptions, Gpu, PipelineCache};
 use tyndall_plugin::Registry;
 use tyndall_render::Running;
+use tyndall_scene::Scene;
+use tyndall_scene::model::Instance;
 
+use crate::casters::Casters;
 use crate::color;
 use crate::errors::Errors;
 use crate::figures::{Figures, Method, Row, SceneFigures};
@@ -15,7 +18,7 @@ use crate::measure::Measured;
 use crate::page::{Names, Picture};
 use crate::prepare::PreparedScene;
 use crate::report::Comparison;
-use crate::truth::{Geometry, Truth};
+use crate::truth::{Geometry, Seen, Truth};
 
 /// Told of what is being done; the second is how many steps were done since it was told last, of [`steps`] in all.
 pub type Progress<'a> = &'a (dyn Fn(Option<&str>, u64) + Sync);
@@ -77,6 +80,7 @@ pub fn compare(
     let figures = Figures {
         about: file.about.clone(),
         output: file.light.output(),
+        shadows: file.shadows,
         adapter: gpu.info.name.clone(),
         size: file.size,
         rounds,
@@ -84,6 +88,12 @@ pub fn compare(
         scenes,
     };
     Ok(Comparison { figures, pictures: work.pictures })
+}
+
+/// The object of each triangle, in the order in which passes number them.
+fn objects(scene: &Scene) -> Vec<usize> {
+    let of = |instance: &Instance| std::iter::repeat_n(instance.object, instance.mesh.triangles.len());
+    scene.instances.iter().flat_map(of).collect()
 }
 
 /// Methods of one graph are a family: they differ by their settings.
@@ -133,7 +143,7 @@ impl Work<'_> {
             let picture = measured.picture().map_err(named(of))?;
             let found = Errors::new(&picture, &truth);
             self.draw(&names, (place, of), &picture, &found, truth.mean());
-            errors.extend(found.percentiles);
+            errors.extend(found.percentiles.map(|percentiles| (percentiles, found.sum)));
             ready.push((of, measured));
             (self.progress)(None, 1);
         }
@@ -159,10 +169,18 @@ impl Work<'_> {
             let port = outputs.iter().find(|(name, _)| name == wanted).map(|(_, port)| *port);
             running.executor.read(port.expect("our own graph of the geometry has this output"))
         };
-        let geometry = Geometry { depth: read("depth")?, normal: read("normal")?, material: read("material")? };
+        let geometry = Geometry {
+            depth: read("depth")?,
+            normal: read("normal")?,
+            material: read("material")?,
+            objects: objects(&scene.scene),
+            triangle: read("triangle")?,
+        };
         let (width, height) = self.file.size;
         let twin = scene.scene.twin(0.0, f64::from(width) / f64::from(height));
-        Ok(Truth::new(self.file.light, &twin, self.file.size, &geometry, &|| (self.progress)(None, 1)))
+        let casters = self.file.shadows.then(|| Casters::new(&scene.scene));
+        let seen = Seen { scene: &twin, geometry: &geometry, casters: casters.as_ref() };
+        Ok(Truth::new(self.file.light, seen, self.file.size, &|| (self.progress)(None, 1)))
     }
 
     fn draw(&mut self, names: &Names<'_>, of: (usize, &str), found: &[[f32; 3]], errors: &Errors, mean: f64) {

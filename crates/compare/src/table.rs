@@ -4,16 +4,24 @@ use crate::errors::FLOOR;
 use crate::figures::{Figures, Method, Row};
 use crate::page::escaped;
 
-const COLUMNS: [&str; 8] = ["method", "p50", "p99", "max", "GPU time", "once", "memory", "tables"];
+const COLUMNS: [&str; 11] =
+    ["method", "p50", "p95", "p99", "max", "sum", "GPU time", "once", "CPU time", "memory", "kept"];
 
 /// What the columns mean, in one paragraph; `mean` names the mean that errors of dark pixels are relative to.
 pub(crate) fn legend(figures: &Figures) -> String {
     let Figures { adapter, size: (width, height), rounds, .. } = figures;
+    let (outlines, moving, kept) = if figures.shadows {
+        let outlines = " but those on outlines (another object, light or number of lit parts within 3x3 pixels), which the sum has";
+        (outlines, "the camera moves", "tables and shadow maps")
+    } else {
+        ("", "camera and lights move", "tables")
+    };
     format!(
         "Relative error of {} against double precision, |found - true| / max(true, {:.0} % of the picture's mean), of every \
-         channel of every pixel. GPU time of the passes that make this light, without rasterising and tone mapping: \
-         median of {rounds} rounds in turns; \"once\": of passes whose result stays while camera and lights move, as \
-         tables do. Memory: what these passes write, in a frame and (tables) once. {width}x{height}, {adapter}.",
+         channel of every pixel{outlines}; \"sum\": of the sum of all pixels. GPU time of the passes that make this light, without rasterising and tone mapping: \
+         median of {rounds} rounds in turns; \"once\": of passes whose result stays while {moving}, as {kept} do. CPU time, on \
+         one core, of what passes read of casters, made anew. Memory: what these passes write, and read of casters, in a frame \
+         and (kept) once. {width}x{height}, {adapter}.",
         figures.output,
         100.0 * FLOOR
     )
@@ -21,7 +29,7 @@ pub(crate) fn legend(figures: &Figures) -> String {
 
 /// What the figures over all scenes are.
 pub(crate) const OVER_ALL: &str =
-    "All scenes: the median of the scenes' p50, the worst p99 and max, the sum of times, the most memory.";
+    "All scenes: the median of the scenes' p50, the worst of the other errors, the sum of times, the most memory.";
 
 /// Every table, for a terminal.
 pub(crate) fn text(figures: &Figures) -> String {
@@ -69,32 +77,35 @@ fn aligned(methods: &[Method], rows: &[Row]) -> String {
     lines.extend(cells(methods, rows));
     let width = |column: usize| lines.iter().map(|line| line[column].chars().count()).max().unwrap_or_default();
     let widths: Vec<usize> = (0..COLUMNS.len()).map(width).collect();
-    let padded = |line: &[String; 8]| {
+    let padded = |line: &[String; 11]| {
         let name = format!("{:<width$}", line[0], width = widths[0]);
-        let rest = (1..8).map(|column| format!("  {:>width$}", line[column], width = widths[column]));
+        let rest = (1..11).map(|column| format!("  {:>width$}", line[column], width = widths[column]));
         name + &rest.collect::<String>() + "\n"
     };
     lines.iter().map(padded).collect()
 }
 
 fn pipes(methods: &[Method], rows: &[Row]) -> String {
-    let line = |cells: &[String; 8]| format!("| {} |\n", cells.join(" | "));
+    let line = |cells: &[String; 11]| format!("| {} |\n", cells.join(" | "));
     let rule = format!("| --- {}|\n", "| ---: ".repeat(COLUMNS.len() - 1));
     let rows: String = cells(methods, rows).iter().map(line).collect();
     line(&COLUMNS.map(str::to_owned)) + &rule + &rows
 }
 
-fn cells(methods: &[Method], rows: &[Row]) -> Vec<[String; 8]> {
+fn cells(methods: &[Method], rows: &[Row]) -> Vec<[String; 11]> {
     let row = |(method, row): (&Method, &Row)| {
         let bytes = |bytes: u64| if bytes == 0 { "-".to_owned() } else { tyndall_gpu::bytes(bytes) };
-        let once = row.cost.set_up_us.filter(|_| row.cost.set_up_bytes > 0);
+        let once = row.cost.set_up_us.filter(|us| *us > 0.0);
         [
             method.name.clone(),
             error(row.p50),
+            error(row.p95),
             error(row.p99),
             error(row.max),
+            error(row.sum),
             time(row.cost.frame_us),
             time(once),
+            time(row.cost.scene_us),
             bytes(row.cost.frame_bytes),
             bytes(row.cost.set_up_bytes),
         ]

@@ -8,9 +8,12 @@ use tyndall_gpu::PortData;
 use tyndall_graph::codes::{BAD_SIZE, BAD_VERSION, NEWER_VERSION, OUT_OF_RANGE, UNKNOWN_OUTPUT, UNKNOWN_PARAMETER};
 use tyndall_image::metrics::{Percentiles, percentiles};
 use tyndall_plugin::Registry;
-use tyndall_scene::Scene;
+use tyndall_scene::{Primitive, Scene};
+use tyndall_shaders::ray::ray_of_pixel;
+use tyndall_shaders::shadow_map::nearest;
 
-use crate::truth::{Geometry, Light, Truth};
+use crate::casters::Casters;
+use crate::truth::{Geometry, Light, Seen, Truth};
 use crate::{codes, prepare, read};
 
 fn registry() -> Registry {
@@ -56,7 +59,7 @@ fn every_mistake_has_its_text_and_place() {
 #[test]
 fn the_shipped_files_have_none() {
     let registry = registry();
-    for (name, least_scenes, least_methods) in [("light", 5, 10), ("surface", 3, 5)] {
+    for (name, least_scenes, least_methods) in [("light", 5, 10), ("shadows", 6, 7), ("surface", 3, 5)] {
         let source = Source::read(&Path::new("../../graphs").join(format!("{name}.compare.ron"))).unwrap();
         let found = mistakes(&source, &registry);
         assert!(found.is_empty(), "{}", render_text(&found, false));
@@ -76,6 +79,7 @@ fn the_truth_of_surfaces() {
         depth: port(size, 1, &[2.0]),
         normal: port(size, 1, &[0.0, 0.0, 1.0, 0.0]),
         material: PortData { data: vec![0.6, 0.5, 0.4, 0.0, 0.2, 0.2, 0.2, 3.0], ..port(size, 2, &[0.0; 4]) },
+        ..nothing_met(size)
     };
     let light = |z: f64, extinction: f64| {
         let text = format!(
@@ -84,7 +88,9 @@ fn the_truth_of_surfaces() {
         );
         let source = Source::new("wall.scene.ron", text);
         let (scene, _) = Scene::from_source(&source, Path::new(""), &Vec::new()).unwrap();
-        Truth::new(Light::Surface, &scene.twin(0.0, 1.0), size, &wall, &|| ()).pixels[0].to_array()
+        let twin = scene.twin(0.0, 1.0);
+        let seen = Seen { scene: &twin, geometry: &wall, casters: None };
+        Truth::new(Light::Surface, seen, size, &|| ()).pixels[0].to_array()
     };
     let [red, green, _] = light(2.0, 0.0);
     let brdf = |rho: f64| rho / std::f64::consts::PI + 0.2;
@@ -102,7 +108,69 @@ fn port((width, height): (u32, u32), layers: u32, value: &[f32]) -> PortData {
 
 fn nothing_met(size: (u32, u32)) -> Geometry {
     let zeros = [0.0; 4];
-    Geometry { depth: port(size, 1, &[f32::INFINITY]), normal: port(size, 1, &zeros), material: port(size, 2, &zeros) }
+    Geometry {
+        depth: port(size, 1, &[f32::INFINITY]),
+        normal: port(size, 1, &zeros),
+        material: port(size, 2, &zeros),
+        objects: Vec::new(),
+        triangle: port(size, 1, &[0.0]),
+    }
+}
+
+/// Where rays meet the triangles of what is not round, which are what they stand for.
+fn met(scene: &Scene, twin: &tyndall_shaders::scene::Scene, size: (u32, u32)) -> Geometry {
+    let surfaces = scene.surfaces(0.0).triangles;
+    let flat = scene.instances.iter().map(|instance| {
+        (
+            !matches!(instance.primitive, Some(Primitive::Sphere { .. } | Primitive::Torus { .. })),
+            &instance.mesh.triangles,
+        )
+    });
+    let flat: Vec<bool> = flat.flat_map(|(flat, triangles)| triangles.iter().map(move |_| flat)).collect();
+    let flat = surfaces.iter().zip(flat).filter(|(_, flat)| *flat);
+    let triangles: Vec<_> = flat.map(|(triangle, _)| triangle.corners.map(|corner| corner.position)).collect();
+    let pixels = (0..size.1).flat_map(|y| (0..size.0).map(move |x| [x, y]));
+    let depth = pixels.map(|pixel| {
+        let ray = ray_of_pixel(&twin.camera, pixel, [size.0, size.1]);
+        nearest(&triangles, ray.origin, ray.direction) as f32
+    });
+    let depth = PortData { data: depth.collect(), ..port(size, 1, &[0.0]) };
+    Geometry { depth, ..nothing_met(size) }
+}
+
+/// With shadows, too: a box, a sphere, and both. The picture's sum has the outlines. A truth without shadows is another.
+#[test]
+fn the_truth_with_shadows_agrees_with_reference_data() {
+    let folder = Path::new("../app/tests/reference");
+    let sums = std::fs::read_to_string(folder.join("sums.json")).unwrap();
+    let sums: serde_json::Value = serde_json::from_str(&sums).unwrap();
+    let size = (160, 120);
+    for name in ["box", "sphere", "box_sphere"] {
+        let (scene, _) = Scene::load(&folder.join(format!("{name}.scene.ron")), &Vec::new()).unwrap();
+        let (twin, casters) = (scene.twin(0.0, 4.0 / 3.0), Casters::new(&scene));
+        let geometry = met(&scene, &twin, size);
+        let truth =
+            |casters| Truth::new(Light::Airlight, Seen { scene: &twin, geometry: &geometry, casters }, size, &|| ());
+        let shadowed = truth(Some(&casters));
+        let samples = tyndall_image::read_array(&folder.join(format!("{name}.shadowed.npy"))).unwrap();
+        let (samples, _) = samples.data.as_chunks::<5>();
+        let errors = |truth: &Truth| {
+            let error = |sample: &[f32; 5]| {
+                let found = truth.pixels[sample[1] as usize * 160 + sample[0] as usize].to_array();
+                (0..3).map(|channel| (found[channel] / f64::from(sample[2 + channel]) - 1.0).abs()).fold(0.0, f64::max)
+            };
+            percentiles(&mut samples.iter().map(error).collect::<Vec<_>>()).unwrap()
+        };
+        let found = errors(&shadowed);
+        let sum: f64 = shadowed.pixels.iter().map(|pixel| pixel.x).sum();
+        let wanted = sums[format!("{name}.shadowed")][0].as_f64().unwrap();
+        println!("{name}: {found:?}, sum {:e}", sum / wanted - 1.0);
+        assert!(samples.len() > 1_000 && found.p99 < 1e-6 && found.max < 1e-4, "{name}: {found:?}");
+        assert!((sum / wanted - 1.0).abs() < 1e-6, "{name}: {sum} for {wanted}");
+        assert!(errors(&truth(None)).p99 > 0.02);
+        let edges = shadowed.edges.unwrap().into_iter().filter(|edge| *edge).count();
+        assert!((500..8_000).contains(&edges), "{name}: {edges}");
+    }
 }
 
 /// Errors of the truth of a scene without surfaces, at the pixels that the reference has (see `tests/reference/README.md`).
@@ -110,7 +178,9 @@ fn truth_errors(name: &str) -> Percentiles {
     let folder = Path::new("../app/tests/reference");
     let (scene, _) = Scene::load(&folder.join(format!("{name}.scene.ron")), &Vec::new()).unwrap();
     let size = (160, 120);
-    let truth = Truth::new(Light::Airlight, &scene.twin(0.0, 4.0 / 3.0), size, &nothing_met(size), &|| ());
+    let (twin, geometry) = (scene.twin(0.0, 4.0 / 3.0), nothing_met(size));
+    let seen = Seen { scene: &twin, geometry: &geometry, casters: None };
+    let truth = Truth::new(Light::Airlight, seen, size, &|| ());
     let samples = tyndall_image::read_array(&folder.join(format!("{name}.airlight.npy"))).unwrap();
     let (samples, _) = samples.data.as_chunks::<5>();
     assert!(samples.len() > 1_000);

@@ -12,6 +12,8 @@ use tyndall_shaders::ray::{Ray, ray_of_pixel};
 use tyndall_shaders::reflection::{Surface, reflected};
 use tyndall_shaders::scene::Scene;
 
+use crate::casters::Casters;
+
 /// What is compared: an output that the shipped graphs have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Light {
@@ -32,17 +34,21 @@ impl Light {
         }
     }
 
-    /// What reaches the eye along the ray of a pixel, W/(sr m²).
-    fn along(self, scene: &Scene, ray: &Ray, met: &Met) -> DVec3 {
+    /// What reaches the eye along the ray of a pixel, W/(sr m²); airlight from the lit parts of each light, if given.
+    fn along(self, scene: &Scene, ray: &Ray, met: &Met, lit: Option<&[Vec<[f64; 2]>]>) -> DVec3 {
         let lights = scene.lights.iter();
-        match self {
-            Self::Airlight => lights.map(|light| airlight(light, &scene.medium, ray, 0.0, met.way)).sum(),
-            Self::Surface if met.way.is_finite() => {
+        let over = |light, [near, far]: [f64; 2]| airlight(light, &scene.medium, ray, near, far);
+        match (self, lit) {
+            (Self::Airlight, Some(lit)) => {
+                lights.zip(lit).flat_map(|(light, lit)| lit.iter().map(move |part| over(light, *part))).sum()
+            }
+            (Self::Airlight, None) => lights.map(|light| over(light, [0.0, met.way])).sum(),
+            (Self::Surface, _) if met.way.is_finite() => {
                 let surface = met.surface(ray);
                 let leaving: DVec3 = lights.map(|light| reflected(light, &scene.medium, &surface)).sum();
                 leaving * transmittance(&scene.medium, met.way)
             }
-            Self::Surface => DVec3::ZERO,
+            (Self::Surface, _) => DVec3::ZERO,
         }
     }
 }
@@ -56,6 +62,10 @@ pub(crate) struct Geometry {
     pub normal: PortData,
     /// Layer 0: Lambert reflectance; layer 1: Phong reflectance, and the shininess.
     pub material: PortData,
+    /// Of each triangle, the object that it belongs to.
+    pub objects: Vec<usize>,
+    /// 1 + the triangle that is met, 0 of none.
+    pub triangle: PortData,
 }
 
 impl Geometry {
@@ -73,6 +83,12 @@ impl Geometry {
             specular,
             shininess,
         }
+    }
+
+    /// The object that a pixel shows.
+    fn object(&self, x: u32, y: u32) -> Option<usize> {
+        let triangle = *self.triangle.data.get((y * self.triangle.width + x) as usize)? as usize;
+        self.objects.get(triangle.checked_sub(1)?).copied()
     }
 }
 
@@ -99,17 +115,29 @@ impl Met {
 pub(crate) struct Truth {
     /// Row by row from the top, W/(sr m²).
     pub pixels: Vec<DVec3>,
+    /// Of each pixel, whether an outline runs there: the object, the lights that reach it, or the number of lit parts of the
+    /// ray is another within 3×3 pixels. `None` where nothing casts a shadow.
+    pub edges: Option<Vec<bool>>,
+}
+
+/// What a pixel shows, as far as outlines go: its object, and of each light whether it reaches that, and the number of lit
+/// parts of the ray.
+type Outlined = (Option<usize>, Vec<(bool, usize)>);
+
+/// What of a scene the truth is of.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Seen<'a> {
+    /// Camera, medium and lights.
+    pub scene: &'a Scene,
+    /// Where the rays end.
+    pub geometry: &'a Geometry,
+    /// What casts shadows, where anything is to.
+    pub casters: Option<&'a Casters>,
 }
 
 impl Truth {
-    /// Of a scene, where the rays meet this. Calls `row_done` after each row. Rows are shared out among the processors.
-    pub fn new(
-        light: Light,
-        scene: &Scene,
-        (width, height): (u32, u32),
-        geometry: &Geometry,
-        row_done: &(dyn Fn() + Sync),
-    ) -> Self {
+    /// Of a scene. Calls `row_done` after each row. Rows are shared out among the processors.
+    pub fn new(light: Light, seen: Seen<'_>, (width, height): (u32, u32), row_done: &(dyn Fn() + Sync)) -> Self {
         let rows = Mutex::new(vec![Vec::new(); height as usize]);
         let next = AtomicU32::new(0);
         let work = || {
@@ -118,11 +146,7 @@ impl Truth {
                 if y >= height {
                     break;
                 }
-                let pixel = |x: u32| {
-                    let ray = ray_of_pixel(&scene.camera, [x, y], [width, height]);
-                    light.along(scene, &ray, &geometry.at(x, y))
-                };
-                let row: Vec<DVec3> = (0..width).map(pixel).collect();
+                let row: Vec<_> = (0..width).map(|x| seen.pixel(light, [x, y], [width, height])).collect();
                 rows.lock().unwrap_or_else(|poisoned| poisoned.into_inner())[y as usize] = row;
                 row_done();
             }
@@ -133,11 +157,39 @@ impl Truth {
             }
         });
         let rows = rows.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
-        Self { pixels: rows.into_iter().flatten().collect() }
+        let (pixels, outlined): (Vec<DVec3>, Vec<Outlined>) = rows.into_iter().flatten().unzip();
+        let edges = seen.casters.map(|_| edges(&outlined, width as usize));
+        Self { pixels, edges }
     }
 
     /// Over all channels of all pixels.
     pub fn mean(&self) -> f64 {
         self.pixels.iter().map(|pixel| pixel.element_sum()).sum::<f64>() / (3.0 * self.pixels.len() as f64)
     }
+}
+
+impl Seen<'_> {
+    fn pixel(&self, light: Light, [x, y]: [u32; 2], size: [u32; 2]) -> (DVec3, Outlined) {
+        let ray = ray_of_pixel(&self.scene.camera, [x, y], size);
+        let mut met = self.geometry.at(x, y);
+        let Some(casters) = self.casters else {
+            return (light.along(self.scene, &ray, &met, None), (None, Vec::new()));
+        };
+        met.way = casters.end(&ray, met.way);
+        let lit: Vec<_> = self.scene.lights.iter().map(|light| casters.lit(light, &ray, met.way)).collect();
+        let outlined = lit.iter().map(|lit| (Casters::reaches(lit, met.way), lit.len())).collect();
+        (light.along(self.scene, &ray, &met, Some(&lit)), (self.geometry.object(x, y), outlined))
+    }
+}
+
+/// Of each pixel, whether another within 3×3 is not alike.
+fn edges(outlined: &[Outlined], width: usize) -> Vec<bool> {
+    let height = outlined.len() / width.max(1);
+    let is_edge = |at: usize| {
+        let (x, y) = (at % width, at / width);
+        let rows = y.saturating_sub(1)..=(y + 1).min(height - 1);
+        let columns = x.saturating_sub(1)..=(x + 1).min(width - 1);
+        rows.into_iter().any(|y| columns.clone().any(|x| outlined[y * width + x] != outlined[at]))
+    };
+    (0..outlined.len()).map(is_edge).collect()
 }

@@ -6,6 +6,7 @@ use glam::{DAffine3, DQuat, DVec3};
 
 use crate::animate::Animated;
 use crate::mesh::Mesh;
+use crate::primitives::Primitive;
 
 pub use tyndall_shaders::scene::Medium;
 
@@ -175,6 +176,8 @@ pub struct Instance {
     pub(crate) node: Option<usize>,
     /// Its triangles.
     pub mesh: Arc<Mesh>,
+    /// What the triangles stand for, where the scene file names a primitive.
+    pub primitive: Option<Primitive>,
     /// Index into the scene's materials.
     pub material: usize,
     /// Whether it is to cast a shadow.

@@ -184,7 +184,8 @@ fn add(scene: &mut Scene, draft: ObjectDraft, model: Option<&Model>, shared: &mu
         (MeshDraft::Primitive(primitive), _) => {
             let material = own.unwrap_or_else(|| shared.default_material(&mut scene.materials));
             let mesh = shared.mesh(primitive);
-            scene.instances.push(Instance { object, node: None, mesh, material, casts_shadow });
+            let primitive = Some(primitive);
+            scene.instances.push(Instance { object, node: None, mesh, primitive, material, casts_shadow });
         }
         (MeshDraft::File(..), Some(model)) => {
             let first = match own {
@@ -195,7 +196,7 @@ fn add(scene: &mut Scene, draft: ObjectDraft, model: Option<&Model>, shared: &mu
                 let material = own.or(part.material.map(|m| first + m));
                 let material = material.unwrap_or_else(|| shared.default_material(&mut scene.materials));
                 let (node, mesh) = (Some(part.node), Arc::clone(&part.mesh));
-                scene.instances.push(Instance { object, node, mesh, material, casts_shadow });
+                scene.instances.push(Instance { object, node, mesh, primitive: None, material, casts_shadow });
             }
         }
         (MeshDraft::File(..), None) => {}

@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
-use tyndall_plugin::{ReferenceInput, descriptor::ParamValue};
+use tyndall_plugin::{PortData, ReferenceInput, descriptor::ParamValue};
 use tyndall_shaders::lights::incident;
 use tyndall_shaders::medium::transmittance;
 use tyndall_shaders::phase::phase;
 use tyndall_shaders::ray::Ray;
 use tyndall_shaders::scene::{Camera, Light, Scene};
+use tyndall_shaders::shadow_map::is_hidden;
 
 use crate::grid::{Grid, ray_of_point};
 
@@ -24,11 +25,13 @@ pub(crate) fn reference(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static 
     // What ends before it begins is as good as empty.
     let grid = Grid { near, far: far.max(1.001 * near), slices };
     let scene = input.scene()?;
+    let shadows = input.params.get("shadows") == Some(&ParamValue::Bool(true));
+    let map = input.inputs.get("shadow_map").copied().filter(|_| shadows);
     let mut scattered = Vec::new();
     for slice in 0..slices {
         for y in 0..columns[1] {
             for x in 0..columns[0] {
-                let light = froxel(scene, &grid, columns, [x, y, slice], points);
+                let light = froxel((scene, map), &grid, columns, [x, y, slice], points);
                 scattered.extend(light.extend(1.0).as_vec4().to_array());
             }
         }
@@ -38,7 +41,13 @@ pub(crate) fn reference(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static 
 }
 
 /// σ_s·p·E·e^(−σ_t·r), W/(sr m³): its mean over the middles of points³ equal parts of a froxel.
-fn froxel(scene: &Scene, grid: &Grid, columns: [u32; 2], at: [u32; 3], points: u32) -> DVec3 {
+fn froxel(
+    (scene, map): (&Scene, Option<&PortData>),
+    grid: &Grid,
+    columns: [u32; 2],
+    at: [u32; 3],
+    points: u32,
+) -> DVec3 {
     let size = DVec2::new(f64::from(columns[0]), f64::from(columns[1]));
     let (start, end) = (grid.border(at[2]), grid.border(at[2] + 1));
     let parts = f64::from(points.pow(3));
@@ -49,7 +58,11 @@ fn froxel(scene: &Scene, grid: &Grid, columns: [u32; 2], at: [u32; 3], points: u
         let place = DVec2::new(f64::from(at[0]) + middle(x), f64::from(at[1]) + middle(y)) / size;
         let ray = ray_of_point(&scene.camera, place);
         let way = start + middle(z) * (end - start);
-        sum += scene.lights.iter().map(|light| scattered(scene, light, &ray, way, volume)).sum::<DVec3>();
+        let point = ray.at(way);
+        let hides = |map: &PortData, light: usize| is_hidden(&map.data, map.width, &scene.lights, light, point);
+        let lit = |(index, _): &(usize, &Light)| !map.is_some_and(|map| hides(map, *index));
+        let lights = scene.lights.iter().enumerate().filter(lit);
+        sum += lights.map(|(_, light)| scattered(scene, light, &ray, way, volume)).sum::<DVec3>();
     }
     sum / parts
 }

@@ -6,6 +6,7 @@ use tyndall_plugin::{Plugin, folder};
 
 /// The plugin.
 pub fn plugin() -> Plugin {
-    Plugin::new("march", folder!("march": "plugin.ron", "airlight.wgsl", "surface_shadows.wgsl"))
+    Plugin::new("march", folder!("march": "plugin.ron", "airlight.wgsl", "shadow_map.wgsl", "surface_shadows.wgsl"))
         .reference("march.airlight", reference::airlight)
+        .reference("march.shadow_map", reference::shadow_map)
 }

@@ -2,24 +2,38 @@
 
 use std::collections::BTreeMap;
 
-use tyndall_plugin::ReferenceInput;
 use tyndall_plugin::descriptor::ParamValue;
+use tyndall_plugin::{PortData, ReferenceInput};
 use tyndall_shaders::lights::incident;
 use tyndall_shaders::medium::transmittance;
 use tyndall_shaders::phase::phase;
 use tyndall_shaders::ray::{Ray, ray_of_pixel};
 use tyndall_shaders::scene::{Light, Scene};
+use tyndall_shaders::shadow_map::{Tiles, is_hidden, nearest, place};
 use tyndall_shaders::shadows::lit_intervals;
 
 /// Optical depth along the ray, of the channel of least extinction among those that scatter, at which the march ends: as in `airlight.wgsl`.
 const MARCH_DEPTH: f64 = 16.0;
+
+/// How it is asked whether a light reaches a point.
+#[derive(Clone, Copy)]
+enum Shadows<'a> {
+    None,
+    Rays,
+    Map(&'a PortData),
+}
 
 /// The same march with the same steps, from the definition of single scattering: what a light sends to the middle of
 /// each step, through the medium to there and from there. No distance is floored, so lights keep off the rays.
 pub(crate) fn airlight(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String> {
     let scene = input.scene()?;
     let (size, steps) = (input.size("radiance")?, input.number("steps")?);
-    let shadows = input.params.get("shadows") == Some(&ParamValue::Bool(true));
+    let is_on = |name: &str| input.params.get(name) == Some(&ParamValue::Bool(true));
+    let shadows = match input.inputs.get("shadow_map") {
+        Some(map) if is_on("shadows") && is_on("maps") => Shadows::Map(map),
+        _ if is_on("shadows") => Shadows::Rays,
+        _ => Shadows::None,
+    };
     let depth = input.inputs.get("depth");
     let (extinction, scattering) = (scene.medium.extinction.to_array(), scene.medium.scattering().to_array());
     let scatters = extinction.into_iter().zip(scattering).filter(|(_, scattering)| *scattering > 0.0);
@@ -38,21 +52,42 @@ pub(crate) fn airlight(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static s
     Ok(BTreeMap::from([("radiance", radiance)]))
 }
 
-fn march(scene: &Scene, ray: &Ray, way: f64, steps: f64, shadows: bool) -> [f64; 3] {
+fn march(scene: &Scene, ray: &Ray, way: f64, steps: f64, shadows: Shadows<'_>) -> [f64; 3] {
     let dx = way / steps;
-    let casters = if shadows { scene.casters.as_slice() } else { &[] };
+    let casters = if matches!(shadows, Shadows::Rays) { scene.casters.as_slice() } else { &[] };
     let lit: Vec<Vec<[f64; 2]>> =
         scene.lights.iter().map(|light| lit_intervals(light, casters, ray, f64::INFINITY)).collect();
+    let reaches = |light: usize, x: f64| match shadows {
+        Shadows::Map(map) => !is_hidden(&map.data, map.width, &scene.lights, light, ray.at(x)),
+        Shadows::None | Shadows::Rays => lit[light].iter().any(|[from, to]| (*from..*to).contains(&x)),
+    };
     let mut sum = [0.0; 3];
     for step in 0..steps as u32 {
         let x = (f64::from(step) + 0.5) * dx;
-        let reaches = |lit: &&Vec<[f64; 2]>| lit.iter().any(|[from, to]| (*from..*to).contains(&x));
-        for (light, _) in scene.lights.iter().zip(&lit).filter(|(_, lit)| reaches(lit)) {
+        for (_, light) in scene.lights.iter().enumerate().filter(|(index, _)| reaches(*index, x)) {
             let scattered = scatter(scene, light, ray, x);
             (0..3).for_each(|channel| sum[channel] += scattered[channel] * dx);
         }
     }
     sum
+}
+
+/// Where a light sees nothing, m: as in `shadow_map.wgsl`.
+const NOTHING: f32 = 3e38;
+
+/// The distance of the nearest of all casters, for each texel.
+pub(crate) fn shadow_map(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String> {
+    let scene = input.scene()?;
+    let [width, height] = input.size("distances")?;
+    let tiles = Tiles::new(scene.lights.len(), width);
+    let texel = |x: u32, y: u32, layer: u32| {
+        let place = tiles.light([x, y]).and_then(|light| place(scene.lights.get(light)?));
+        let found = place.map(|place| nearest(&scene.casters, place, tiles.direction([x, y], layer)));
+        found.filter(|found| found.is_finite()).map_or(NOTHING, |found| found as f32)
+    };
+    let rows = (0..6).flat_map(|layer| (0..height).map(move |y| (layer, y)));
+    let distances = rows.flat_map(|(layer, y)| (0..width).map(move |x| texel(x, y, layer))).collect();
+    Ok(BTreeMap::from([("distances", distances)]))
 }
 
 /// Light that is scattered toward the eye at a point of the ray, and reaches it, W/(sr m³).

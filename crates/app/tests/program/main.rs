@@ -4,6 +4,7 @@
 
 mod accuracy;
 mod aerial;
+mod analytic_casters;
 mod assets;
 mod bench;
 mod biri;
