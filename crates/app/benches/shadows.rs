@@ -2,7 +2,8 @@
 //!
 //! Prints the tables of the README of `shadow_planes` and writes them and the plots to `docs/shadows-*`. Everything runs
 //! in the program itself, within one run, so that ratios hold on a machine that does other things too. Pictures are
-//! 800×600, or as large as an argument says (then `out/` gets the files); errors are of a smaller picture of the same view, against lit intervals of all triangles in double precision.
+//! 800×600, or as large as an argument says (then `out/` gets the files); errors are of a smaller picture of the same view,
+//! against lit intervals of all triangles in double precision.
 //!
 //! The march is given the best of all: its error is that of a march with a ray at the triangles from every step, its time
 //! that of one that looks a shadow map up, and the map itself, which errs and costs besides, is free. To the time of the
@@ -440,12 +441,18 @@ fn caster_table(casters: &[Measured]) -> String {
                 (true, true) => format!("{steps:.0}"),
                 (true, false) => format!("≈ {steps:.0}"),
             };
-            (text, of.march_of(steps) / of.planes())
+            let ratio = of.march_of(steps) / of.planes();
+            let ratio = match ratio {
+                far if !far.is_finite() => "-".to_owned(),
+                large if large >= 100.0 => format!("{large:.0}"),
+                ratio => format!("{ratio:.1}"),
+            };
+            (text, ratio)
         };
         let ((same, same_ratio), (promised, promised_ratio)) = (steps(of.error), steps(PROMISED));
         writeln!(
             table,
-            "| {} | {} | {:.1e} | {:.0} ms | {:.1} ms | {:.1} ms | {:.2} MiB | {:.0} ms | {same} | {same_ratio:.2} | {promised} | {promised_ratio:.2} |",
+            "| {} | {} | {:.1e} | {:.0} ms | {:.1} ms | {:.1} ms | {:.2} MiB | {:.0} ms | {same} | {same_ratio} | {promised} | {promised_ratio} |",
             of.name, of.triangles, of.error, of.planes_ms, of.slices_ms, of.first_ms, of.mebibytes, of.march_ms
         )
         .unwrap();
@@ -464,7 +471,7 @@ fn caster_table(casters: &[Measured]) -> String {
         at.map_or_else(
             || {
                 format!(
-                    "the ratio does not cross 1 (it is {:.2} at the most triangles)",
+                    "the ratio does not cross 1 (it is {:.1} at the most triangles)",
                     ratios.last().unwrap().1.exp()
                 )
             },
@@ -482,7 +489,7 @@ fn write_blob(folder: &Path, name: &str, around: u32, along: u32) {
             (TAU * f64::from(i % around) / f64::from(around), PI * f64::from(j) / f64::from(along));
         let radius = 0.55 * (1.0 + 0.22 * (5.0 * longitude).sin() * (4.0 * latitude).sin() * latitude.sin());
         // the vertices of a pole are one
-        let across = if j % along == 0 { 0.0 } else { latitude.sin() };
+        let across = if j.is_multiple_of(along) { 0.0 } else { latitude.sin() };
         radius * DVec3::new(across * longitude.cos(), latitude.cos(), across * longitude.sin())
     };
     let mut bytes = Vec::new();

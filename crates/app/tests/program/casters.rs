@@ -91,7 +91,7 @@ fn error(picture: &Image, other: &Image) -> f64 {
 
 /// Numbers below `n` in an order that looks random: 7919 is prime, and no divisor of `n`.
 fn shuffled(n: u32) -> Vec<u32> {
-    assert!(n % 7919 != 0);
+    assert!(!n.is_multiple_of(7919));
     (0..n).map(|k| (k * 7919 + 13) % n).collect()
 }
 
