@@ -42,14 +42,19 @@ pub fn is_lit(light: &Light, casters: &[Caster], ray: &Ray, way: f64) -> bool {
     lit_intervals(light, casters, ray, way).last().is_some_and(|[_, end]| *end >= way * (1.0 - 1e-5))
 }
 
-/// The part of a ray in the shadow of a triangle. One that the light sees edge on has none.
+/// Area over the square of the longest edge below which a triangle has no shadow: a side of it is as short as numbers round,
+/// and the plane through it and the light may lie any way. At the poles of spheres there are such.
+const NEEDLE: f64 = 1e-12;
+
+/// The part of a ray in the shadow of a triangle. One that the light sees edge on has none, and neither has a needle.
 fn shadow(source: Source, &[a, b, c]: &Caster, ray: &Ray) -> Option<[f64; 2]> {
     let normal = (b - a).cross(c - a);
     let away = match source {
         Source::At(light) => normal.dot(a - light),
         Source::Along(direction) => normal.dot(direction),
     };
-    if away == 0.0 {
+    let longest = [b - a, c - b, a - c].map(DVec3::length_squared).into_iter().fold(0.0, f64::max);
+    if away == 0.0 || normal.length() < NEEDLE * longest {
         return None;
     }
     let side = |from: DVec3, to: DVec3, third: DVec3| {
@@ -107,5 +112,23 @@ mod tests {
         // Above the square nothing is dark.
         assert_eq!(of(&point(DVec3::new(0.0, 1.0, 0.0)), 9.0), [[0.0, 9.0]]);
         assert!(is_lit(&lamp, &square(1.0, 2.0), &ray, 2.9) && !is_lit(&lamp, &square(1.0, 2.0), &ray, 3.1));
+    }
+
+    /// Two corners that only rounding tells apart.
+    #[test]
+    fn a_needle_shadows_nothing() {
+        let lamp = point(DVec3::new(0.0, 4.0, 0.0));
+        for step in 0..1000 {
+            let turned = f64::from(step) * 0.37;
+            let corner = DVec3::new(turned.cos(), 2.0 + 0.3 * turned.sin(), 0.8 * turned.sin());
+            let beside = corner + 2e-16 * DVec3::new((3.0 * turned).sin(), (5.0 * turned).cos(), (7.0 * turned).sin());
+            let needle = [corner, beside, DVec3::new(0.2, 1.5, -0.7)];
+            let ray = Ray {
+                origin: DVec3::new(-5.0, 0.0, 0.3),
+                direction: DVec3::new(1.0, 0.1 * turned.sin(), 0.0).normalize(),
+            };
+            let lit: f64 = lit_intervals(&lamp, &[needle], &ray, 20.0).iter().map(|[from, to]| to - from).sum();
+            assert!(lit > 20.0 - 1e-9, "{needle:?} leaves {lit} m of 20 lit");
+        }
     }
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Instant;
 
+use tyndall_document::Diagnostics;
 use tyndall_gpu::{FrameOptions, Gpu, PipelineCache, Timing};
 use tyndall_graph::Plan;
 use tyndall_image::metrics::median;
@@ -63,6 +64,12 @@ impl<'p> Measured<'p> {
         let mut running = Running::new(gpu, method.plan.clone(), method.scene.as_ref(), registry, cache)?;
         running.frame(FrameOptions::default())?;
         gpu.wait()?;
+        // A picture that the driver left undone would count as the method's error.
+        let mut unfinished = Diagnostics::default();
+        running.warn_of_unfinished(&mut unfinished)?;
+        if !unfinished.is_empty() {
+            return Err(unfinished.into());
+        }
         let own = own_passes(running.executor.plan());
         let (frame_us, set_up_us, scene_us) = (Vec::new(), Vec::new(), Vec::new());
         let scene = method.scene.as_ref();

@@ -58,6 +58,7 @@ impl Session {
                 Error::Gpu(error) => Problem::Machine(error.to_string()),
             });
         }
+        outcome.warnings.extend(std::mem::take(&mut self.unfinished));
         outcome.took = start.elapsed();
         outcome
     }

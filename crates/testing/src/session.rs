@@ -38,6 +38,8 @@ pub struct Session {
     /// What a pass took when it ran for the first time.
     costs: HashMap<Fingerprint, Duration>,
     substitute: Option<Substitute>,
+    /// Pictures that a driver has left undone.
+    pub(crate) unfinished: Diagnostics,
     pub(crate) answers: Answers,
     /// What sharing has saved.
     pub saved: Saved,
@@ -136,6 +138,7 @@ impl Session {
             held: 0,
             costs: HashMap::new(),
             substitute: None,
+            unfinished: Diagnostics::default(),
             answers: Answers::default(),
             saved: Saved::default(),
         })
@@ -267,6 +270,7 @@ impl Session {
                 rendered.push(read_all(&running.executor, ports, frame, &prints)?);
             }
         }
+        running.warn_of_unfinished(&mut self.unfinished)?;
         Ok(rendered)
     }
 
@@ -307,6 +311,7 @@ impl Session {
         let mut running = Running::new(&self.gpu, rest, loaded.scene.as_ref(), registry, &mut self.cache)?;
         self.give_known(&mut running.executor, &rest_prints)?;
         running.frame(FrameOptions { frame, timing: Timing::Each, ..FrameOptions::default() })?;
+        running.warn_of_unfinished(&mut self.unfinished)?;
         let executor = &running.executor;
         let ran = self.ran(executor, &rest_prints);
         self.spare(plan, &prints, &ran);
@@ -427,6 +432,7 @@ impl Session {
             }
         }
         running.frame(FrameOptions { frame, ..FrameOptions::default() })?;
+        running.warn_of_unfinished(&mut self.unfinished)?;
         let prints = vec![None; running.executor.plan().passes.len()];
         let rendered = read_all(&running.executor, ports, frame, &prints);
         self.saved.rendering += start.elapsed();

@@ -21,6 +21,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Probe) -> Result<(), 
     let gpu = Gpu::open(verb.adapter.as_deref())?;
     let mut running = Running::new(&gpu, plan, loaded.scene.as_ref(), &registry, &mut PipelineCache::default())?;
     running.frame(FrameOptions { frame: verb.frame, ..FrameOptions::default() })?;
+    loading::warn_of_unfinished(&running)?;
     let data = running.executor.read(planned)?;
     let (x, y) = verb.pixel;
     if x >= data.width || y >= data.height {
