@@ -7,8 +7,8 @@
 
 // Part of the way at which it is asked: before the surface, so that it does not hide itself from what it faces.
 const BEFORE_SURFACE: f32 = 0.9999;
-// Where there is no surface, m.
-const FARTHEST: f32 = 1e6;
+// Where there is no surface, m: no farther, for what is met is asked of boxes that grow with the way, and no more than needed.
+const FARTHEST: f32 = 1e4;
 
 var<uniform> camera: Camera;
 var<storage, read> lights: Lights;
@@ -20,7 +20,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = textureDimensions(lit);
     let count = lights.count;
     let ray = ray_of_pixel(camera, id.xy, size);
-    let way = min(textureLoad(depth, id.xy, 0).x, FARTHEST);
+    let met = textureLoad(depth, id.xy, 0).x;
+    let way = select(met, FARTHEST, met > 1e30);
     let x = BEFORE_SURFACE * way;
     var bits = vec4<f32>(0.0);
     // a list without lights holds one of intensity 0; why the test stands at the end: see shaders/airlight.wgsl

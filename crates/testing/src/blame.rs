@@ -1,86 +1,104 @@
 //! Whose fault each failure is.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use tyndall_graph::Plan;
+use tyndall_graph::descriptor::Role;
 
 use crate::outcome::{Check, Outcome, PortOutcome, Reach, State, Suspicion};
 
 /// What each pass of a plan was made from, in the run that is judged: ports, by the position of the pass. A port that was
 /// given to a pass is not among them, and neither is what lies before it.
-pub(crate) struct Upstream(Vec<BTreeSet<u32>>);
+pub(crate) struct Upstream {
+    /// In the same frame.
+    ports: Vec<BTreeSet<u32>>,
+    /// In frames before.
+    remembered: Vec<BTreeSet<u32>>,
+}
 
 impl Upstream {
     /// Where every pass ran.
     pub fn of(plan: &Plan) -> Self {
         let mut upstream = Self::nothing(plan);
         for pass in 0..plan.passes.len() {
-            let sources: Vec<u32> = plan.sources(pass as u32).iter().flatten().copied().collect();
-            upstream.0[pass] = upstream.with_before(plan, &sources);
+            let (now, _) = sources(plan, pass as u32);
+            upstream.ports[pass] = with_before(plan, &upstream.ports, &now);
         }
+        upstream.remembered = remembered(plan, &upstream.ports);
         upstream
     }
 
     /// Where no pass ran for another.
     pub fn nothing(plan: &Plan) -> Self {
-        Self(vec![BTreeSet::new(); plan.passes.len()])
+        let nothing = vec![BTreeSet::new(); plan.passes.len()];
+        Self { ports: nothing.clone(), remembered: nothing }
     }
 
     /// A pass ran, and these of its inputs were rendered for it; others were given.
     pub fn ran_with(&mut self, plan: &Plan, pass: u32, rendered: &[u32]) {
-        let before = Self::of(plan).with_before(plan, rendered);
-        self.0[pass as usize].extend(before);
+        let before = with_before(plan, &Self::of(plan).ports, rendered);
+        self.ports[pass as usize].extend(before);
     }
 
-    /// Ports, and what their passes were made from.
-    fn with_before(&self, plan: &Plan, ports: &[u32]) -> BTreeSet<u32> {
-        let producers = ports.iter().filter_map(|port| plan.ports[*port as usize].pass);
-        let before = producers.flat_map(|pass| self.0[pass as usize].iter());
-        before.chain(ports).copied().collect()
-    }
-
-    /// The ports that the pass at this position was made from.
+    /// The ports that the pass at this position was made from, in the same frame.
     pub fn ports(&self, pass: usize) -> &BTreeSet<u32> {
-        &self.0[pass]
+        &self.ports[pass]
     }
 
     /// The positions of their passes.
     pub fn passes<'a>(&'a self, plan: &'a Plan, pass: usize) -> impl Iterator<Item = usize> + 'a {
-        self.0[pass].iter().filter_map(|port| Some(plan.ports[*port as usize].pass? as usize))
+        self.ports[pass].iter().filter_map(|port| Some(plan.ports[*port as usize].pass? as usize))
     }
 }
 
-/// Says whose fault each failure is: that of the first pass which fails though all that it was made from holds. What
-/// depends on a pass that fails is inherited. A check that names other passes falls with these; a relation is weighed like
-/// a check. A golden that is missing says nothing of a pass.
+/// What a pass reads of this frame, and of the frame before.
+fn sources(plan: &Plan, pass: u32) -> (Vec<u32>, Vec<u32>) {
+    let roles = plan.descriptor(pass).ports.iter().map(|port| matches!(port.role, Role::History(_)));
+    let all = plan.sources(pass).iter().zip(roles).filter_map(|(source, is_before)| Some(((*source)?, is_before)));
+    let (before, now): (Vec<_>, Vec<_>) = all.partition(|(_, is_before)| *is_before);
+    let ports = |list: Vec<(u32, bool)>| list.into_iter().map(|(port, _)| port).collect();
+    (ports(now), ports(before))
+}
+
+/// Ports, and what their passes were made from.
+fn with_before(plan: &Plan, made_from: &[BTreeSet<u32>], ports: &[u32]) -> BTreeSet<u32> {
+    let producers = ports.iter().filter_map(|port| plan.ports[*port as usize].pass);
+    let before = producers.flat_map(|pass| made_from[pass as usize].iter());
+    before.chain(ports).copied().collect()
+}
+
+/// What frames before bring into each pass, through all that it reads.
+fn remembered(plan: &Plan, ports: &[BTreeSet<u32>]) -> Vec<BTreeSet<u32>> {
+    let mut found: Vec<BTreeSet<u32>> = vec![BTreeSet::new(); ports.len()];
+    loop {
+        let mut grown = false;
+        for pass in 0..ports.len() {
+            let (_, before) = sources(plan, pass as u32);
+            let mut all = with_before(plan, ports, &before);
+            let read = ports[pass].iter().chain(&before).filter_map(|port| plan.ports[*port as usize].pass);
+            all.extend(read.flat_map(|pass| found[pass as usize].iter().copied().collect::<Vec<_>>()));
+            grown |= !all.is_subset(&found[pass]);
+            found[pass].extend(all);
+        }
+        if !grown {
+            return found;
+        }
+    }
+}
+
+/// Says whose fault each failure is: that of the first pass which fails though all that it was made from holds, port by
+/// port and frame by frame. What depends on a port that fails is inherited. A check that names other ports falls with
+/// these; a relation is weighed like a check. A golden that is missing says nothing of a pass.
 ///
-/// A port that no check holds in every number may be wrong without a word. Where a pass that is named was made from one,
-/// the outcome says so.
+/// A port that no check holds in every number may be wrong without a word, and so may be a port that another is held
+/// against. Where a pass that is named depends on such, the outcome says so.
 pub(crate) fn attribute(plan: &Plan, upstream: &Upstream, outcome: &mut Outcome) {
-    let mut blame = Blame { plan, upstream, failing: vec![false; plan.passes.len()] };
-    for port in &outcome.ports {
-        blame.failing(&port.pass, divergences(port).any(|check| check.also_on.is_empty()));
-    }
-    for relation in outcome.relations.iter().filter(|relation| !relation.judgement.passed) {
-        blame.failing(&relation.pass, true);
-    }
-    // Only now is it known what a check about other passes falls with; a pass that nothing excuses fails by itself.
-    for port in &outcome.ports {
-        let excused = divergences(port).all(|check| blame.falls_with(&port.pass, &check.also_on));
-        blame.failing(&port.pass, !excused);
-    }
-    for port in outcome.ports.iter_mut().filter(|port| !port.passed()) {
-        let excused = divergences(port).all(|check| blame.falls_with(&port.pass, &check.also_on));
-        let diverges = divergences(port).next().is_some();
-        port.state = match (diverges, excused) {
-            (false, _) => State::Unjudged,
-            (true, true) => State::Inherited,
-            (true, false) => State::Guilty,
-        };
-    }
-    for relation in outcome.relations.iter_mut().filter(|relation| !relation.judgement.passed) {
-        let excused = blame.falls_with(&relation.pass, &[]);
-        relation.state = if excused { State::Inherited } else { State::Guilty };
+    let numbers = (0..plan.ports.len() as u32).map(|port| (plan.port_name(port), port)).collect();
+    let mut blame = Blame { plan, upstream, numbers, failing: BTreeSet::new(), earlier: BTreeSet::new() };
+    let frames = outcome.ports.iter().map(|port| port.frame).chain(outcome.relations.iter().map(|each| each.frame));
+    let frames: BTreeSet<u32> = frames.collect();
+    for frame in frames {
+        blame.frame(outcome, frame);
     }
     outcome.suspicions = blame.suspicions(outcome);
 }
@@ -90,44 +108,102 @@ fn divergences(port: &PortOutcome) -> impl Iterator<Item = &Check> {
     port.checks.iter().filter(|check| !check.judgement.passed && check.reach != Reach::Nothing)
 }
 
-/// Which passes of a plan fail by themselves.
+/// Which ports of a plan fail by themselves.
 struct Blame<'a> {
     plan: &'a Plan,
     upstream: &'a Upstream,
-    failing: Vec<bool>,
+    numbers: BTreeMap<String, u32>,
+    /// In the frame that is judged.
+    failing: BTreeSet<u32>,
+    /// In frames before.
+    earlier: BTreeSet<u32>,
 }
 
 impl Blame<'_> {
-    fn position(&self, name: &str) -> Option<usize> {
-        (0..self.plan.passes.len()).find(|pass| self.plan.pass_name(*pass as u32) == name)
-    }
-
-    fn failing(&mut self, pass: &str, fails: bool) {
-        if let Some(position) = self.position(pass) {
-            self.failing[position] |= fails;
+    fn frame(&mut self, outcome: &mut Outcome, frame: u32) {
+        self.earlier.append(&mut self.failing);
+        let fails_by_itself = |port: &&PortOutcome| divergences(port).any(|check| check.also_on.is_empty());
+        let of_frame = || outcome.ports.iter().filter(|port| port.frame == frame);
+        of_frame().filter(fails_by_itself).for_each(|port| self.fails(&port.name));
+        let relations = || outcome.relations.iter().filter(|each| each.frame == frame && !each.judgement.passed);
+        relations().for_each(|relation| self.fails(&relation.port));
+        // Of a pass that fails in one port, those that nothing holds may be as wrong.
+        let held: BTreeSet<&str> = of_frame().filter(|port| is_held(port)).map(|port| port.name.as_str()).collect();
+        let wrong: BTreeSet<Option<u32>> = self.failing.iter().map(|port| self.pass_of(*port)).collect();
+        let unheld = self.numbers.iter().filter(|(name, port)| {
+            !held.contains(name.as_str()) && self.pass_of(**port).is_some() && wrong.contains(&self.pass_of(**port))
+        });
+        let unheld: Vec<u32> = unheld.map(|(_, port)| *port).collect();
+        self.failing.extend(unheld);
+        // Only now is it known what a check about other ports falls with; a port that nothing excuses fails by itself.
+        for port in of_frame() {
+            if !divergences(port).all(|check| self.falls_with(&port.name, &check.also_on)) {
+                self.fails(&port.name);
+            }
+        }
+        for port in outcome.ports.iter_mut().filter(|port| port.frame == frame && !port.passed()) {
+            let excused = divergences(port).all(|check| self.falls_with(&port.name, &check.also_on));
+            let diverges = divergences(port).next().is_some();
+            port.state = match (diverges, excused) {
+                (false, _) => State::Unjudged,
+                (true, true) => State::Inherited,
+                (true, false) => State::Guilty,
+            };
+        }
+        for relation in outcome.relations.iter_mut().filter(|each| each.frame == frame && !each.judgement.passed) {
+            let excused = self.falls_with(&relation.port, &[]);
+            relation.state = if excused { State::Inherited } else { State::Guilty };
         }
     }
 
-    /// Whether something upstream of a pass fails, or one of these others, or something upstream of one.
-    fn falls_with(&self, pass: &str, also_on: &[String]) -> bool {
-        let Some(pass) = self.position(pass) else { return false };
-        let others = also_on.iter().filter_map(|name| self.position(name)).filter(|other| *other != pass);
-        let involved = others.flat_map(|other| self.upstream.passes(self.plan, other).chain([other]));
-        self.upstream.passes(self.plan, pass).chain(involved).any(|other| other != pass && self.failing[other])
+    fn fails(&mut self, port: &str) {
+        self.failing.extend(self.numbers.get(port));
     }
 
-    /// Of every pass that is named, the ports that it was made from and that nothing holds.
+    fn pass_of(&self, port: u32) -> Option<u32> {
+        self.plan.ports[port as usize].pass
+    }
+
+    /// The position of the pass that writes a port.
+    fn position(&self, port: &str) -> Option<usize> {
+        Some(self.pass_of(*self.numbers.get(port)?)? as usize)
+    }
+
+    /// Whether something that a port was made from fails, or one of these others, or something that those were made from.
+    fn falls_with(&self, port: &str, also_on: &[String]) -> bool {
+        let Some(pass) = self.position(port) else { return false };
+        let own = self.numbers.get(port);
+        let others = || also_on.iter().filter(|other| *other != port);
+        let made_from = others().filter_map(|other| self.position(other)).chain([pass]);
+        let mut upstream = made_from.clone().flat_map(|pass| self.upstream.ports(pass));
+        let mut remembered = made_from.flat_map(|pass| &self.upstream.remembered[pass]);
+        upstream.any(|other| Some(other) != own && self.failing.contains(other))
+            || others().filter_map(|other| self.numbers.get(other)).any(|other| self.failing.contains(other))
+            || remembered.any(|other| self.earlier.contains(other))
+    }
+
+    /// Of every pass that is named, the ports that it depends on and that nothing holds, or that it is held against.
     fn suspicions(&self, outcome: &Outcome) -> Vec<Suspicion> {
         let held: BTreeSet<&str> = outcome.ports.iter().filter(|port| is_held(port)).map(|port| &*port.name).collect();
-        let unheld = |pass: &str| -> Vec<String> {
-            let Some(position) = self.position(pass) else { return Vec::new() };
-            let rendered = |port: &&u32| self.plan.ports[**port as usize].pass.is_some();
-            let names = self.upstream.ports(position).iter().filter(rendered).map(|port| self.plan.port_name(*port));
-            names.filter(|name| !held.contains(name.as_str())).collect()
-        };
-        let guilty = outcome.guilty().into_iter();
-        let suspicions = guilty.map(|pass| Suspicion { pass: pass.to_owned(), unheld: unheld(pass) });
-        suspicions.filter(|suspicion| !suspicion.unheld.is_empty()).collect()
+        let mut suspicions = Vec::new();
+        for pass in outcome.guilty() {
+            let ports = outcome.ports.iter().filter(|port| port.pass == pass && port.state == State::Guilty);
+            let relations = outcome.relations.iter().filter(|each| each.pass == pass && each.state == State::Guilty);
+            let mut suspected = BTreeSet::new();
+            for port in ports {
+                let of_own = self.position(&port.name).into_iter().flat_map(|pass| self.upstream.ports(pass));
+                let rendered = of_own.filter(|port| self.pass_of(**port).is_some());
+                suspected.extend(rendered.filter(|port| !held.contains(self.plan.port_name(**port).as_str())));
+                let others = divergences(port).flat_map(|check| &check.also_on).filter(|other| **other != port.name);
+                suspected.extend(others.filter_map(|other| self.numbers.get(other)));
+            }
+            suspected.extend(relations.flat_map(|each| &each.unheld).filter_map(|port| self.numbers.get(port)));
+            if !suspected.is_empty() {
+                let unheld = suspected.into_iter().map(|port| self.plan.port_name(port)).collect();
+                suspicions.push(Suspicion { pass: pass.to_owned(), unheld });
+            }
+        }
+        suspicions
     }
 }
 

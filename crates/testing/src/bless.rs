@@ -1,12 +1,13 @@
 //! Blessing: what was rendered becomes what is expected.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use crate::adapter::AdapterClass;
 use crate::blame::Upstream;
 use crate::golden::{self, Record};
 use crate::options::Options;
-use crate::outcome::{GOLDEN, Outcome, PortOutcome, Problem, State};
+use crate::outcome::{Check, GOLDEN, Outcome, PortOutcome, Problem, State};
 use crate::run::Ready;
 use crate::session::Rendered;
 
@@ -44,6 +45,12 @@ pub(crate) fn run(
             continue;
         }
         let Some(picture) = &port.actual else { continue };
+        if let Some(metric) = port.metric.filter(|metric| !metric.judge(picture, picture).passed) {
+            let why =
+                format!("{}: it would not pass against itself by {metric}: there are numbers that are none", port.name);
+            outcome.problems.push(Problem::NotBlessed(why));
+            continue;
+        }
         let frame = rendered.iter().find(|rendered| rendered.frame == port.frame);
         let made_from = frame.and_then(|frame| {
             let tapped = ready.tapped.iter().find(|tapped| tapped.name == port.name)?;
@@ -70,10 +77,13 @@ pub(crate) fn run(
                     port.state = State::Passed;
                 }
             }
-            Err(why) => outcome.problems.push(Problem::NotBlessed(format!("{}: {why}", port.name))),
+            Err(why) => outcome.problems.push(Problem::Machine(format!("{}: {why}", port.name))),
         }
     }
-    if options.tap.is_none() {
+    // Nothing goes before what takes its place is there.
+    let all_blessed =
+        !outcome.problems.iter().any(|problem| matches!(problem, Problem::NotBlessed(_) | Problem::Machine(_)));
+    if options.tap.is_none() && all_blessed {
         drop_orphans(ready, &mut records, outcome, &mut blessed);
     }
     outcome.blessed = blessed;
@@ -83,7 +93,11 @@ pub(crate) fn run(
 /// not become right by it, and neither does what is made from it.
 fn refused(ready: &Ready, outcome: &Outcome) -> BTreeMap<String, String> {
     let plan = &ready.plan;
-    let wrong = |port: &&PortOutcome| port.checks.iter().any(|check| check.what != GOLDEN && !check.judgement.passed);
+    // A golden that differs and is not to be blessed now is wrong like anything else.
+    let wrong = |port: &&PortOutcome| {
+        let stays = |check: &Check| check.what != GOLDEN || !ready.chosen.contains(&port.name);
+        port.checks.iter().any(|check| stays(check) && !check.judgement.passed)
+    };
     let ports = outcome.ports.iter().filter(wrong).map(|port| port.pass.clone());
     let relations = outcome.relations.iter().filter(|relation| !relation.judgement.passed);
     let mut refused: BTreeMap<String, String> = ports
@@ -110,7 +124,8 @@ fn refused(ready: &Ready, outcome: &Outcome) -> BTreeMap<String, String> {
 fn drop_orphans(ready: &Ready, records: &mut golden::Records, outcome: &mut Outcome, blessed: &mut Vec<String>) {
     let folder = ready.file.goldens();
     let claimed = crate::run::claimed(ready);
-    for orphan in golden::orphans(&folder, &claimed) {
+    let is_image = |path: &PathBuf| path.extension().is_some_and(|suffix| suffix == "exr" || suffix == "png");
+    for orphan in golden::orphans(&folder, &claimed).into_iter().filter(is_image) {
         match std::fs::remove_file(&orphan) {
             Ok(()) => blessed.push(format!("deleted {}: no tap claims it", orphan.display())),
             Err(error) => outcome.problems.push(Problem::NotBlessed(format!("{}: {error}", orphan.display()))),

@@ -84,7 +84,7 @@ fn run_pass(
         // Nothing was rendered upstream, so nothing can be said of when the golden was made.
         port.stale.clear();
         for check in &mut port.checks {
-            check.also_on.retain(|other| *other != port.pass && !given(ready, inputs, other));
+            check.also_on.retain(|other| *other != port.name && !given(ready, inputs, other));
         }
         outcome.ports.push(port);
     }
@@ -92,9 +92,9 @@ fn run_pass(
     Ok(())
 }
 
-/// What a pass of this name writes was given.
-fn given(ready: &Ready, inputs: &BTreeMap<PortRef, Arc<PortData>>, pass: &str) -> bool {
-    inputs.keys().any(|port| ready.loaded.graph.pass(port.pass).name == pass)
+/// The port of this name was given.
+fn given(ready: &Ready, inputs: &BTreeMap<PortRef, Arc<PortData>>, name: &str) -> bool {
+    inputs.keys().any(|port| ready.loaded.graph.port_name(*port) == name)
 }
 
 /// The inputs of a pass, from goldens.

@@ -34,18 +34,18 @@ impl Judge<'_> {
     /// were made from one that fails are left out: nothing that they could say would change whose fault it is.
     pub fn frame(&self, rendered: &Rendered) -> Vec<PortOutcome> {
         let (plan, upstream) = (&self.ready.plan, Upstream::of(&self.ready.plan));
-        let mut failing: BTreeSet<u32> = BTreeSet::new();
+        let mut failing: BTreeSet<u32> = BTreeSet::new(); // ports
         let mut outcomes = Vec::with_capacity(self.ready.tapped.len());
         for tapped in &self.ready.tapped {
             let position = plan.position(tapped.port.pass);
-            let made_from = position.map(|position| upstream.passes(plan, position as usize));
-            let inherits = || made_from.into_iter().flatten().any(|pass| failing.contains(&(pass as u32)));
+            let made_from = position.map(|position| upstream.ports(position as usize));
+            let inherits = || made_from.is_some_and(|ports| !ports.is_disjoint(&failing));
             if self.options.until_failure && inherits() {
                 continue;
             }
             let outcome = self.port(tapped, rendered);
             if outcome.checks.iter().any(|check| !check.judgement.passed && check.also_on.is_empty()) {
-                failing.extend(position);
+                failing.extend(plan.planned(tapped.port));
             }
             outcomes.push(outcome);
         }
@@ -113,7 +113,7 @@ impl Judge<'_> {
         outcome.checks.push(match tyndall_image::read(&reference.file) {
             Ok(image) => {
                 let wanted = actual.compared().channels;
-                let expected = Picture::new(image.first_channels(wanted), actual.class);
+                let expected = Picture::new(golden::as_port(image.first_channels(wanted), actual.class), actual.class);
                 let judgement = reference.metric.judge(&Picture::new(actual.compared(), actual.class), &expected);
                 Check::new(&what, Reach::EveryNumber, judgement)
             }
@@ -127,7 +127,7 @@ impl Judge<'_> {
         let computed = || self.computed(tapped, actual, rendered);
         let judgement = property::judge(property, actual, &other, &computed);
         let ports = property.ports().iter().filter_map(|name| find(graph, name));
-        let also_on = ports.map(|port| graph.pass(port.pass).name.clone()).collect();
+        let also_on = ports.map(|port| graph.port_name(port)).collect();
         let reach = if property.is_whole() { Reach::EveryNumber } else { Reach::Something };
         Check { also_on, ..Check::new(&property::name(property), reach, judgement) }
     }

@@ -75,7 +75,8 @@ pub struct Untapped {
     pub picture: Picture,
 }
 
-/// Ports that a pass at fault was made from, and in which no check holds every number: the mistake may be there.
+/// Ports in which the mistake may be as well: those that a pass at fault was made from and in which no check holds every
+/// number, and those that it is held against.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Suspicion {
     /// The pass that is named.
@@ -170,7 +171,7 @@ pub struct Check {
     pub judgement: Judgement,
     /// How much it says of the port.
     pub reach: Reach,
-    /// Other passes that it depends on, beside those upstream.
+    /// Other ports that it depends on, `pass.port`, beside those upstream.
     pub also_on: Vec<String>,
 }
 
@@ -196,6 +197,8 @@ pub struct RelationOutcome {
     pub port: String,
     /// The pass that writes it.
     pub pass: String,
+    /// What it was made from that came out of something else in another run, and that nothing holds there: `pass.port`.
+    pub unheld: Vec<String>,
     /// What was found.
     pub judgement: Judgement,
     /// Whose fault it is.
@@ -293,8 +296,9 @@ impl Outcome {
             );
             if let Some(Suspicion { unheld, .. }) = self.suspicions.iter().find(|suspicion| suspicion.pass == *first) {
                 let ports = unheld.join("`, `");
-                text +=
-                    &format!("    or what it was made from: nothing holds `{ports}`; a golden or CpuReference would\n");
+                text += &format!(
+                    "    or what it depends on: `{ports}` may be wrong, and no check would tell: give it a golden or a CpuReference that is strict enough\n"
+                );
             }
         }
         let to_tell = |state| matches!(state, State::Guilty | State::Unjudged);

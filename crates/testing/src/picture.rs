@@ -49,7 +49,7 @@ impl Picture {
     }
 
     /// No larger than a golden may be: every k-th texel along each axis, with the least k that leaves no more than a square
-    /// of [`MOST_SIDE`]; along a side that is longer still, fewer. Of a buffer every k-th element, whole.
+    /// of 96; along a side that is longer still, fewer. Of a buffer every k-th element, whole.
     #[must_use]
     pub fn thinned(&self) -> Self {
         self.thinned_to(MOST_SIDE)

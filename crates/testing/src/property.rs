@@ -30,7 +30,8 @@ pub(crate) fn judge(
         Property::Varies => {
             let mut texels = image.data.chunks_exact(image.channels.max(1) as usize);
             let first = texels.next().unwrap_or_default();
-            let varies = texels.any(|texel| texel != first);
+            let differs = |(a, b): (&f32, &f32)| a != b && !a.is_nan() && !b.is_nan();
+            let varies = texels.any(|texel| texel.iter().zip(first).any(differs));
             let figures = if varies { "not blank".to_owned() } else { format!("every texel is {first:?}") };
             Judgement::new(varies, figures, if varies { 0.0 } else { f64::INFINITY })
         }
@@ -107,7 +108,11 @@ pub(crate) fn at_most(image: &Image, bound: &Image, within: f64) -> Judgement {
     }
     let more = |(value, bound): (&f32, &f32)| {
         let (value, bound) = (f64::from(*value), f64::from(*bound));
-        let more = if value == bound { 0.0 } else { (value - bound) / bound.abs().max(f64::MIN_POSITIVE) };
+        let more = if value == bound || bound == f64::INFINITY && !value.is_nan() {
+            0.0
+        } else {
+            (value - bound) / bound.abs().max(f64::MIN_POSITIVE)
+        };
         if more.is_nan() { f64::INFINITY } else { more }
     };
     let worst = image.data.iter().zip(&bound.data).map(more).fold(f64::NEG_INFINITY, f64::max);
@@ -197,6 +202,10 @@ mod tests {
             assert!(holds(&property, Class::Color, &base, &base), "{property:?}");
             assert!(!holds(&property, Class::Color, &wrong, &base), "{property:?}");
         }
+        let nothing = [f32::NAN, f32::NAN, f32::NAN, 1.0, f32::NAN, f32::NAN, f32::NAN, 1.0];
+        assert!(!holds(&Property::Varies, Class::Color, &nothing, &base));
+        let endless = [f32::INFINITY, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0];
+        assert!(holds(&Property::AtMost { port: port(), within: 0.0 }, Class::Color, &base, &endless));
         let sum = Property::Sum { ports: vec![port(), port()], by };
         let twice = base.map(|value| if value == 1.0 { 1.0 } else { 2.0 * value });
         assert!(holds(&sum, Class::Color, &twice, &base) && !holds(&sum, Class::Color, &base, &base));

@@ -38,6 +38,10 @@ pub(crate) fn judge(
         })),
         Change::Differs(least) => each(&|other| {
             // A cap on how loose a metric may be is no cap on how much must differ: what is measured is wanted here.
+            let comparable = |picture: &Picture| picture.compared().data.iter().all(|value| value.is_finite());
+            if !(comparable(other) && comparable(own)) || other.compared().data.len() != own.compared().data.len() {
+                return fails("numbers that are none, or another size, are no difference that is meant");
+            }
             let found = Metric::RelativeRmse { tolerance: least }.judge(other, own);
             Judgement::new(!found.passed, format!("must differ by more: {}", found.figures), 1.0 / found.excess)
         }),
@@ -124,6 +128,13 @@ mod tests {
             assert!(!judge(change, &own, &[wrong]).passed, "{change:?}");
             assert!(!judge(change, &own, &[]).passed, "{change:?}");
         }
+    }
+
+    #[test]
+    fn numbers_that_are_none_are_no_difference() {
+        let (own, nothing) = (picture(|x, _| x as f32), picture(|_, _| f32::NAN));
+        assert!(!judge(Change::Differs(0.1), &own, std::slice::from_ref(&nothing)).passed);
+        assert!(!judge(Change::Differs(0.1), &nothing, &[own]).passed);
     }
 
     #[test]

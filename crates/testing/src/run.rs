@@ -12,7 +12,8 @@ use tyndall_render::{Error, Loaded, load};
 
 use crate::adapter::AdapterClass;
 use crate::blame::{Upstream, attribute};
-use crate::file::{Change, Tapped, TestFile, check, check_run, matches, read};
+use crate::file::{Change, Expectation, Tapped, TestFile, check, check_run, matches, read};
+use crate::fingerprint::Fingerprint;
 use crate::golden::{self, Records};
 use crate::judge::{Computing, Judge};
 use crate::metric::Judgement;
@@ -184,6 +185,7 @@ impl Session {
     fn relations(&mut self, ready: &Ready, own: &[Rendered], options: &Options) -> Result<Vec<RelationOutcome>, Error> {
         let mut outcomes = Vec::new();
         let graph = &ready.loaded.graph;
+        let upstream = Upstream::of(&ready.plan);
         let wanted = |name: &str| options.tap.as_ref().is_none_or(|pattern| matches(pattern, name));
         for relation in &ready.file.relations {
             let failed = |relation: &RelationOutcome| !relation.judgement.passed;
@@ -195,7 +197,7 @@ impl Session {
             let asking = expect.iter().zip(&ports).filter(|(each, _)| matches!(each.change, Change::CpuReference(_)));
             let inputs = asking.flat_map(|(_, port)| ready.inputs(port.pass)).map(|(_, port)| port);
             let rendering: Vec<PortRef> = ports.iter().copied().chain(inputs).collect();
-            let mut runs = Vec::new();
+            let (mut runs, mut changed) = (Vec::new(), BTreeSet::new());
             for settings in &relation.runs {
                 let mut request = ready.file.request.clone();
                 request.set.extend(settings.iter().cloned());
@@ -209,8 +211,19 @@ impl Session {
                 let plan = Self::plan(&loaded.graph, Roots::Ports(rendering.clone()), Variation::PLAIN)?;
                 let frames = &ready.file.frames;
                 let rendered = self.render(&loaded, &ready.registry, &rendering, frames, Variation::PLAIN)?;
+                changed.extend(self.made_from_other(ready, &loaded, &plan));
                 runs.push(Run { loaded, plan, rendered });
             }
+            let unheld = |port: PortRef| -> Vec<String> {
+                let position = ready.plan.position(port.pass);
+                let made_from = position.map(|position| upstream.ports(position as usize)).into_iter().flatten();
+                let names = made_from.filter(|port| changed.contains(port)).map(|port| ready.plan.port_name(*port));
+                let held = |name: &String| {
+                    let of_port = |each: &&Expectation| each.port == *name;
+                    expect.iter().copied().filter(of_port).any(|each| matches!(each.change, Change::CpuReference(_)))
+                };
+                names.filter(|name| !held(name)).collect()
+            };
             let judging = self.judging();
             for (expectation, port) in expect.iter().zip(&ports) {
                 for (frame, own) in own.iter().enumerate().filter(|(_, own)| options.looks_at(own.frame)) {
@@ -233,6 +246,7 @@ impl Session {
                         about: relation.about.clone(),
                         port: expectation.port.clone(),
                         pass: graph.pass(port.pass).name.clone(),
+                        unheld: unheld(*port),
                         judgement,
                         state: State::Passed,
                     });
@@ -241,6 +255,26 @@ impl Session {
             self.judged(judging);
         }
         Ok(outcomes)
+    }
+}
+
+impl Session {
+    /// Ports of the test's own plan that another run makes of something else.
+    fn made_from_other(&self, ready: &Ready, other: &Loaded, plan: &Plan) -> BTreeSet<u32> {
+        let frame = ready.file.frames.last().copied().unwrap_or_default();
+        let own = self.prints(&ready.loaded, &ready.registry, &ready.plan, frame);
+        let others = self.prints(other, &ready.registry, plan, frame);
+        let is_same = |port: &u32| {
+            let print = |plan: &Plan, prints: &[Option<Fingerprint>], port: u32| {
+                prints[plan.ports[port as usize].pass? as usize]
+            };
+            let in_other = plan.planned(ready.plan.ports[*port as usize].port);
+            let print_there = in_other.and_then(|port| print(plan, &others, port));
+            print_there.is_some() && print_there == print(&ready.plan, &own, *port)
+        };
+        (0..ready.plan.ports.len() as u32)
+            .filter(|port| ready.plan.ports[*port as usize].pass.is_some() && !is_same(port))
+            .collect()
     }
 }
 

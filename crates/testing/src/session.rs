@@ -274,7 +274,13 @@ impl Session {
         Ok(rendered)
     }
 
-    fn prints(&self, loaded: &Loaded, registry: &Registry, plan: &Plan, frame: u32) -> Vec<Option<Fingerprint>> {
+    pub(crate) fn prints(
+        &self,
+        loaded: &Loaded,
+        registry: &Registry,
+        plan: &Plan,
+        frame: u32,
+    ) -> Vec<Option<Fingerprint>> {
         let encoded = encode(loaded, plan, frame);
         fingerprints(plan, registry, encoded.as_ref(), frame)
     }

@@ -65,7 +65,12 @@ fn figures_tell_the_methods_apart() {
         assert!(error(rows, "froxels", "p50") < 0.03 && error(rows, "froxels", "max") > 0.05, "{rows}");
         for row in rows.as_array().unwrap() {
             assert!(row["gpu_us"].is_null() || row["gpu_us"].as_f64().unwrap() > 0.0);
-            assert_eq!(row["set_up_bytes"], 0, "nothing here is a table");
+            // A march binds the hierarchy of triangles, which is empty here.
+            let once = row["set_up_bytes"].as_u64().unwrap();
+            assert!(
+                once == 0 || once < 128 && row["name"].as_str().unwrap().contains("march"),
+                "nothing here is a table: {row}"
+            );
         }
         assert_eq!(method(rows, "quadrature")["bytes"], 32 * 24 * 16);
         // two grids, the far ends of the columns, where the slices stand, and the picture

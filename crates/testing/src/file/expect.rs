@@ -225,7 +225,14 @@ fn change(decoder: &mut Decoder<'_>, node: &Node) -> Option<Change> {
             let fields = decoder.fields(content, &what, &["x", "y", "by"])?;
             let mut pixels = |name: &str| {
                 let node = fields.required(decoder, name)?;
-                decoder.integer(node).and_then(|pixels| i32::try_from(pixels).ok())
+                let pixels = decoder.integer(node)?;
+                if pixels.unsigned_abs() > u64::from(u16::MAX) {
+                    let message = format!("no picture has {pixels} pixels along a side: nothing would be left of it");
+                    let problem = Diagnostic::error(codes::VACUOUS_CHECK, decoder.place(node.span), message);
+                    decoder.report(problem.suggest("shift it by fewer pixels"));
+                    return None;
+                }
+                i32::try_from(pixels).ok()
             };
             let (x, y) = (pixels("x")?, pixels("y")?);
             Some(Change::Shifted(x, y, by(decoder, &fields)?))

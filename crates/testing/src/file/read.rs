@@ -16,6 +16,9 @@ use crate::picture::MOST_SIDE;
 
 const VERSION: i64 = 1;
 const DEFAULT_SIZE: (u32, u32) = (64, 48);
+/// The last frame that a test may look at: what remembers frames is rendered from the first on.
+const MOST_FRAME: u32 = 9999;
+
 const FIELDS: &[&str] = &["version", "about", "graph", "scene", "size", "set", "frames", "taps", "relations"];
 const TAP_FIELDS: &[&str] = &["golden", "adapters", "reason", "reference", "properties"];
 
@@ -106,10 +109,14 @@ fn frames(decoder: &mut Decoder<'_>, node: &Node) -> Option<Vec<u32>> {
     let items = decoder.list(node)?;
     let numbers: Option<Vec<u32>> =
         items.iter().map(|item| decoder.integer(item).and_then(|number| u32::try_from(number).ok())).collect();
-    let frames = numbers.filter(|frames| !frames.is_empty() && frames.windows(2).all(|pair| pair[0] < pair[1]));
+    let in_order = |frames: &Vec<u32>| {
+        !frames.is_empty() && frames.windows(2).all(|pair| pair[0] < pair[1]) && frames.last() <= Some(&MOST_FRAME)
+    };
+    let frames = numbers.filter(in_order);
     if frames.is_none() {
         let place = decoder.place(node.span);
-        let message = "frames are a list of whole numbers, each larger than the one before";
+        let message =
+            format!("frames are a list of whole numbers, each larger than the one before, up to {MOST_FRAME}");
         decoder.report(Diagnostic::error(codes::BAD_FRAMES, place, message).suggest("write frames: [0, 12]"));
     }
     frames

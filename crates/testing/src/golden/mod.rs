@@ -71,15 +71,22 @@ pub fn read(folder: &Path, key: &str, records: &Records, like: &Picture) -> Resu
     Ok(Picture::new(unfolded(image, like), like.class))
 }
 
+/// Linear light of a file as a port of this class has it: encoded sRGB where it is for the eye.
+pub(crate) fn as_port(mut image: Image, class: Class) -> Image {
+    if class == Class::Display {
+        let channels = image.channels as usize;
+        let light = image.data.iter_mut().enumerate().filter(|(index, _)| index % channels != 3);
+        light.for_each(|(_, value)| *value = srgb_from_linear(*value));
+    }
+    image
+}
+
 /// As a file has it, back to layers and to encoded sRGB.
 fn unfolded(mut image: Image, like: &Picture) -> Image {
     if like.class == Class::Display {
-        let channels = image.channels as usize;
-        for (index, value) in image.data.iter_mut().enumerate() {
-            *value = if index % channels == 3 { *value } else { srgb_from_linear(*value) };
-            // Codes of 8 bits come back as the codes that they were.
-            *value = (*value * 255.0).round() / 255.0;
-        }
+        image = as_port(image, like.class);
+        // Codes of 8 bits come back as the codes that they were.
+        image.data.iter_mut().for_each(|value| *value = (*value * 255.0).round() / 255.0);
     }
     let layers = like.image.layers;
     if layers > 1 && image.height.is_multiple_of(layers) {

@@ -229,3 +229,29 @@ fn relations_between_runs() {
     let wrong = run(3.0);
     assert!(!wrong.passed() && wrong.text().contains("twice the factor"), "{}", wrong.text());
 }
+
+#[test]
+fn what_would_not_pass_against_itself_is_not_blessed_and_nothing_goes_without_a_replacement() {
+    let chain = Chain::new();
+    let before = fs::read(chain.path("chain.goldens/three.result.exr")).unwrap();
+    chain.put("chain.goldens/NOTES.md", "mine");
+    chain.put("chain.goldens/gone.result.exr", "an orphan");
+    chain.set_line("three", "    let value = texel(id.xy) + bitcast<f32>(id.x | 0x7fc00000u);");
+    let outcome = chain.run(&bless());
+    says(&outcome, "three.result: it would not pass against itself");
+    assert_eq!(fs::read(chain.path("chain.goldens/three.result.exr")).unwrap(), before);
+    assert!(chain.path("chain.goldens/gone.result.exr").exists(), "not everything was blessed");
+    chain.set_line("three", LINE);
+    chain.run(&bless());
+    assert!(!chain.path("chain.goldens/gone.result.exr").exists() && chain.path("chain.goldens/NOTES.md").exists());
+}
+
+/// What comes before has its old golden still: it is not right, and so neither is what was made from it.
+#[test]
+fn nothing_is_blessed_that_was_made_from_what_is_not() {
+    let chain = Chain::new();
+    chain.set_line("two", HALF);
+    let outcome = chain.run(&Options { tap: Some("four.result".to_owned()), ..bless() });
+    says(&outcome, "not blessed: four.result: it is made from what `two` writes");
+    assert!(outcome.blessed.is_empty(), "{:?}", outcome.blessed);
+}
