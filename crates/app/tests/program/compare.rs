@@ -68,7 +68,7 @@ fn figures_tell_the_methods_apart() {
             // A march binds the hierarchy of triangles, which is empty here.
             let once = row["set_up_bytes"].as_u64().unwrap();
             assert!(
-                once == 0 || once < 128 && row["name"].as_str().unwrap().contains("march"),
+                once == 0 || once < 128 && row["method"].as_str().unwrap().contains("march"),
                 "nothing here is a table: {row}"
             );
         }
