@@ -16,8 +16,8 @@ var<private> occluders_missed: bool = false;
 
 // How far away a directional light is looked for, m.
 const SUN_WAY: f32 = 1e5;
-// A triangle that a light sees at less than this angle, rad, is transparent to it, as in silhouette.rs.
-const EDGE_ON: f32 = 1e-6;
+// By what part a number may have been rounded in all that leads to the height of a light above a triangle, as in shadows.rs.
+const ROUNDED: f32 = 8.0 / 16777216.0;
 // Boxes are larger by this part, so that rounding errors lose none.
 const BOX_SLACK: f32 = 1e-5;
 
@@ -78,13 +78,16 @@ fn shadow_of_triangle(first: u32, light: Light, ray: Ray) -> vec2<f32> {
     let is_sun = light.kind == DIRECTIONAL;
     // from the light; of a sun from the ray's origin
     let origin = select(light.position, ray.origin, is_sun);
-    let a = occluder_corners.items[first].xyz - origin;
-    let b = occluder_corners.items[first + 1u].xyz - origin;
-    let c = occluder_corners.items[first + 2u].xyz - origin;
+    let corners = array(occluder_corners.items[first].xyz, occluder_corners.items[first + 1u].xyz,
+        occluder_corners.items[first + 2u].xyz);
+    let a = corners[0] - origin;
+    let b = corners[1] - origin;
+    let c = corners[2] - origin;
     let eye = ray.origin - origin;
     let normal = cross(b - a, c - a);
     let away = dot(normal, select(a, light.direction, is_sun));
-    let distance = select(max(max(length(a), length(b)), length(c)), 1.0, is_sun);
+    let largest = max(max(abs(corners[0]), abs(corners[1])), max(abs(corners[2]), abs(origin)));
+    let rounded = select(dot(abs(normal), largest), length(normal), is_sun);
     let sides = mat3x3<f32>(
         select(cross(a, b), cross(b - a, light.direction), is_sun),
         select(cross(b, c), cross(c - b, light.direction), is_sun),
@@ -96,7 +99,7 @@ fn shadow_of_triangle(first: u32, light: Light, ray: Ray) -> vec2<f32> {
     interval = clipped(interval, turn * dot(sides[1], eye - b), turn * dot(sides[1], ray.direction));
     interval = clipped(interval, turn * dot(sides[2], eye - c), turn * dot(sides[2], ray.direction));
     interval = clipped(interval, sign(away) * dot(normal, eye - a), sign(away) * dot(normal, ray.direction));
-    let is_seen = abs(away) > EDGE_ON * distance * length(normal);
+    let is_seen = abs(away) > ROUNDED * rounded;
     return select(vec2<f32>(1.0, 0.0), interval, is_seen);
 }
 

@@ -7,19 +7,50 @@ use crate::ray::Ray;
 use crate::scene::{Caster, Light};
 use glam::DVec3;
 
-/// Where a light's rays come from.
-#[derive(Clone, Copy)]
-enum Source {
+/// Where light comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Source {
+    /// A point, m.
     At(DVec3),
+    /// The way light travels everywhere, a unit vector.
     Along(DVec3),
+}
+
+impl Source {
+    /// Of a light.
+    pub fn of(light: &Light) -> Source {
+        match *light {
+            Light::Point { position, .. } | Light::Spot { position, .. } => Source::At(position),
+            Light::Directional { direction, .. } => Source::Along(direction),
+        }
+    }
+}
+
+/// By what part single precision may have moved a number in all that leads to the height of a light above a triangle:
+/// eight roundings.
+const ROUNDED: f64 = 8.0 / (1 << 24) as f64;
+
+/// Which way a triangle faces: 1 where its corners run counter-clockwise as the light sees them, -1 clockwise, and 0 where
+/// the light sees it edge on, where it has no area, or where a corner is no number.
+///
+/// A lamp on a surface is in the plane of its triangles but for the rounding of coordinates, which must not decide whether
+/// it lights a room: as near as that is edge on. A lamp that is farther from the plane than its coordinates and the
+/// triangle's were rounded is not, however far the triangle reaches. `shadow_of_triangle` in `occluders.wgsl` says the same.
+pub fn facing(source: Source, &[a, b, c]: &Caster) -> i8 {
+    let normal = (b - a).cross(c - a);
+    let (height, rounded) = match source {
+        Source::At(light) => {
+            let largest = a.abs().max(b.abs()).max(c.abs()).max(light.abs());
+            (normal.dot(light - a), normal.abs().dot(largest))
+        }
+        Source::Along(direction) => (-normal.dot(direction), normal.length()),
+    };
+    if height.is_finite() && height.abs() > ROUNDED * rounded { height.signum() as i8 } else { 0 }
 }
 
 /// The lit intervals of the first `way` metres of a ray, which may be infinite, in order, m.
 pub fn lit_intervals(light: &Light, casters: &[Caster], ray: &Ray, way: f64) -> Vec<[f64; 2]> {
-    let source = match *light {
-        Light::Point { position, .. } | Light::Spot { position, .. } => Source::At(position),
-        Light::Directional { direction, .. } => Source::Along(direction),
-    };
+    let source = Source::of(light);
     let mut dark: Vec<[f64; 2]> =
         casters.iter().filter_map(|triangle| shadow(source, triangle, ray)).filter(|[from, _]| *from < way).collect();
     dark.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -47,14 +78,12 @@ pub fn is_lit(light: &Light, casters: &[Caster], ray: &Ray, way: f64) -> bool {
 const NEEDLE: f64 = 1e-12;
 
 /// The part of a ray in the shadow of a triangle. One that the light sees edge on has none, and neither has a needle.
-fn shadow(source: Source, &[a, b, c]: &Caster, ray: &Ray) -> Option<[f64; 2]> {
+fn shadow(source: Source, triangle: &Caster, ray: &Ray) -> Option<[f64; 2]> {
+    let [a, b, c] = *triangle;
     let normal = (b - a).cross(c - a);
-    let away = match source {
-        Source::At(light) => normal.dot(a - light),
-        Source::Along(direction) => normal.dot(direction),
-    };
+    let facing = facing(source, triangle);
     let longest = [b - a, c - b, a - c].map(DVec3::length_squared).into_iter().fold(0.0, f64::max);
-    if away == 0.0 || normal.length() < NEEDLE * longest {
+    if facing == 0 || normal.length() < NEEDLE * longest {
         return None;
     }
     let side = |from: DVec3, to: DVec3, third: DVec3| {
@@ -64,7 +93,7 @@ fn shadow(source: Source, &[a, b, c]: &Caster, ray: &Ray) -> Option<[f64; 2]> {
         };
         (plane * plane.dot(third - from).signum(), from)
     };
-    let planes = [side(a, b, c), side(b, c, a), side(c, a, b), (normal * away.signum(), a)];
+    let planes = [side(a, b, c), side(b, c, a), side(c, a, b), (normal * -f64::from(facing), a)];
     let (mut start, mut end) = (0.0_f64, f64::INFINITY);
     for (inward, point) in planes {
         let (height, rise) = (inward.dot(ray.origin - point), inward.dot(ray.direction));
@@ -84,6 +113,7 @@ fn shadow(source: Source, &[a, b, c]: &Caster, ray: &Ray) -> Option<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DQuat;
 
     fn point(position: DVec3) -> Light {
         Light::Point { position, intensity: DVec3::ONE, radius: 0.0 }
@@ -112,6 +142,28 @@ mod tests {
         // Above the square nothing is dark.
         assert_eq!(of(&point(DVec3::new(0.0, 1.0, 0.0)), 9.0), [[0.0, 9.0]]);
         assert!(is_lit(&lamp, &square(1.0, 2.0), &ray, 2.9) && !is_lit(&lamp, &square(1.0, 2.0), &ray, 3.1));
+    }
+
+    /// A lamp at a rounding error from the plane of a triangle is in it, and one a millimetre from a plane of kilometres not.
+    #[test]
+    fn a_lamp_on_a_triangle_sees_it_edge_on() {
+        let single = |v: DVec3| v.as_vec3().as_dvec3();
+        for step in 0..1000 {
+            let turn = DQuat::from_euler(glam::EulerRot::XYZ, f64::from(step), 0.3 * f64::from(step), 0.7);
+            let shift = DVec3::new(30.0, -20.0, f64::from(step));
+            let [a, b, c] = [DVec3::X, DVec3::NEG_X, DVec3::new(0.2, 0.0, 1.3)];
+            let triangle = [a, b, c].map(|corner| single(shift + turn * corner));
+            let lamp = |height: f64| Source::At(single(shift + turn * ((a + b + c) / 3.0 + height * DVec3::Y)));
+            let heights = [0.0, 1e-7, 1e-2, -1e-2].map(|height| facing(lamp(height), &triangle));
+            assert_eq!(heights, [0, 0, 1, -1], "step {step}");
+        }
+        let floor = [DVec3::new(-4e3, 0.0, -4e3), DVec3::new(0.0, 0.0, 4e3), DVec3::new(4e3, 0.0, -4e3)];
+        let at = |y: f64| facing(Source::At(DVec3::new(10.0, y, -300.0)), &floor);
+        assert_eq!([at(1e-3), at(-1e-3), at(0.0)], [1, -1, 0]);
+        let sun = |slope: f64| facing(Source::Along(DVec3::new(1.0, -slope, 0.0).normalize()), &floor);
+        assert_eq!([sun(1e-5), sun(-1e-5), sun(1e-8)], [1, -1, 0]);
+        assert_eq!(facing(Source::At(DVec3::Y), &[DVec3::NAN, DVec3::X, DVec3::Z]), 0);
+        assert_eq!(facing(Source::At(DVec3::Y), &[DVec3::X, DVec3::X, DVec3::Z]), 0);
     }
 
     /// Two corners that only rounding tells apart.

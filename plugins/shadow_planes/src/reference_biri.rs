@@ -9,9 +9,7 @@ use tyndall_shaders::airlight::airlight;
 use tyndall_shaders::lights::lit_bit;
 use tyndall_shaders::ray::{Ray, ray_of_pixel};
 use tyndall_shaders::scene::{Caster, Light};
-
-/// A triangle that a light sees at less than this angle, rad, is transparent to it: as in `silhouette.rs`.
-const EDGE_ON: f64 = 1e-6;
+use tyndall_shaders::shadows::{Source, facing};
 
 /// What eight bits hold.
 const STENCIL_MAX: i32 = 255;
@@ -120,7 +118,7 @@ fn crossed(light: &Light, planes: &[Plane], ray: &Ray, way: f64) -> Vec<Crossed>
 fn silhouette(light: &Light, casters: &[Caster]) -> Vec<Plane> {
     let mut edges: BTreeMap<[[u64; 3]; 2], Plane> = BTreeMap::new();
     for triangle in casters {
-        let facing = facing(light, triangle);
+        let facing = i32::from(facing(Source::of(light), triangle));
         let [a, b, c] = *triangle;
         for (from, to) in [(a, b), (b, c), (c, a)] {
             let bits = |v: DVec3| (v + DVec3::ZERO).to_array().map(f64::to_bits);
@@ -131,17 +129,4 @@ fn silhouette(light: &Light, casters: &[Caster]) -> Vec<Plane> {
         }
     }
     edges.into_values().filter(|plane| plane.excess != 0).collect()
-}
-
-/// 1 where the corners run counter-clockwise as the light sees them, -1 clockwise.
-fn facing(light: &Light, &[a, b, c]: &Caster) -> i32 {
-    let normal = (b - a).cross(c - a);
-    let (away, distance) = match *light {
-        Light::Point { position, .. } | Light::Spot { position, .. } => {
-            let [a, b, c] = [a - position, b - position, c - position];
-            (normal.dot(a), a.length().max(b.length()).max(c.length()))
-        }
-        Light::Directional { direction, .. } => (normal.dot(direction), 1.0),
-    };
-    if away.abs() > EDGE_ON * distance * normal.length() { -away.signum() as i32 } else { 0 }
 }

@@ -114,6 +114,26 @@ fn a_light_on_a_surface_shines() {
     }
 }
 
+/// A floor hides a lamp that is a millimetre below it, however far it reaches, and all of the air above it is dark.
+#[test]
+fn a_lamp_close_below_a_floor_is_hidden() {
+    let desk = Desk::new();
+    for (size, depth) in [("40.0", 1e-4), ("400.0", 1e-4), ("4000.0", 1e-3)] {
+        for tilt in [0.0_f64, 0.3] {
+            let floor = format!(
+                "(mesh: Plane(size: ({size}, {size})), rotation: (axis: (0.0, 0.0, 1.0), angle: {})),",
+                tilt.to_degrees()
+            );
+            let lamp_at = |height: f64| lamp(&format!("({}, {}, -0.4)", -height * tilt.sin(), height * tilt.cos()));
+            let [below, all] = pair(&desk, &scene(CAMERA, &lamp_at(-depth), &floor));
+            println!("{size} m tilted by {tilt}: {:e}", mean(&below) / mean(&all));
+            assert!(mean(&below) < 1e-6 * mean(&all), "{size} m tilted by {tilt}: {} of {}", mean(&below), mean(&all));
+            let [above, all] = pair(&desk, &scene(CAMERA, &lamp_at(depth), &floor));
+            assert!(mean(&above) > 0.99 * mean(&all), "{size} m tilted by {tilt}: {} of {}", mean(&above), mean(&all));
+        }
+    }
+}
+
 /// The eye is in the plane of a face, of an edge and the lamp, and in the middle of it all; one column of pixels looks along
 /// these planes. What is seen is what is seen from a little beside, on one side or the other. The last lamp is on a face, too.
 #[test]

@@ -12,8 +12,9 @@ mod slices;
 mod spans;
 
 use glam::DVec3;
+use tyndall_shaders::shadows::Source;
 
-use self::silhouette::{Casters, SilhouetteEdge, Source};
+use self::silhouette::{Casters, SilhouetteEdge};
 use self::slices::{LightFrame, PlacedEdge};
 use crate::encode::list;
 use crate::frame::{Frame, FrameLight};

@@ -1,22 +1,10 @@
 //! Edges at which a shadow begins or ends, as a light sees them.
 
 use glam::DVec3;
+use tyndall_shaders::shadows::{Source, facing};
 
 use crate::adjacency::Adjacency;
 use crate::scene::Scene;
-
-/// A triangle that a light sees at less than this angle, rad, is transparent to it. A lamp on a surface is in the plane of
-/// its triangles but for a rounding error, which must not decide whether it lights a room.
-const EDGE_ON: f64 = 1e-6;
-
-/// Where light comes from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Source {
-    /// A point, m.
-    At(DVec3),
-    /// The way light travels everywhere, a unit vector.
-    Along(DVec3),
-}
 
 /// An edge of the casters at which the number of triangles between the light and what is behind changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,23 +66,10 @@ impl Casters {
         casters
     }
 
-    /// Which way each triangle faces: 1 where its corners run counter-clockwise as the light sees them, -1 clockwise, and
-    /// 0 where the light sees it edge on, where it has no area, or where a corner is no number.
+    /// Which way each triangle faces, as [`facing`] says.
     pub(crate) fn facing(&self, positions: &[DVec3], source: Source) -> Vec<i8> {
-        let facing = |triangle: &[u32; 3]| {
-            let [a, b, c] = triangle.map(|vertex| positions[vertex as usize]);
-            let normal = (b - a).cross(c - a);
-            let (height, distance) = match source {
-                Source::At(light) => {
-                    let [a, b, c] = [a - light, b - light, c - light];
-                    (-normal.dot(a), a.length().max(b.length()).max(c.length()))
-                }
-                Source::Along(direction) => (-normal.dot(direction), 1.0),
-            };
-            let clear = height.abs() > EDGE_ON * distance * normal.length();
-            if clear && height.is_finite() { height.signum() as i8 } else { 0 }
-        };
-        self.triangles.iter().map(facing).collect()
+        let corners = |triangle: &[u32; 3]| triangle.map(|vertex| positions[vertex as usize]);
+        self.triangles.iter().map(|triangle| facing(source, &corners(triangle))).collect()
     }
 
     /// The silhouette: of a closed mesh the edges between a triangle that faces the light and one that does not; of any

@@ -13,8 +13,9 @@ use std::num::NonZero;
 use std::ops::Range;
 
 use glam::{DMat3, DVec3};
+use tyndall_shaders::shadows::Source;
 
-use super::silhouette::{SilhouetteEdge, Source};
+use super::silhouette::SilhouetteEdge;
 use super::spans::{Borders, Span, angles};
 use crate::layout::{ShadowCrossing, ShadowEdge, ShadowLight};
 
