@@ -2,10 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use tyndall_graph::Plan;
-use tyndall_graph::descriptor::Role;
+use tyndall_graph::{Plan, SlotKind};
 
-use crate::outcome::{Check, Outcome, PortOutcome, Reach, State, Suspicion};
+use crate::outcome::{Outcome, PortOutcome, Reach, State, Suspicion};
 
 /// What each pass of a plan was made from, in the run that is judged: ports, by the position of the pass. A port that was
 /// given to a pass is not among them, and neither is what lies before it.
@@ -34,9 +33,9 @@ impl Upstream {
         Self { ports: nothing.clone(), remembered: nothing }
     }
 
-    /// A pass ran, and these of its inputs were rendered for it; others were given.
-    pub fn ran_with(&mut self, plan: &Plan, pass: u32, rendered: &[u32]) {
-        let before = with_before(plan, &Self::of(plan).ports, rendered);
+    /// A pass ran, and these of its inputs were rendered for it, by passes that all ran; others were given.
+    pub fn ran_with(&mut self, plan: &Plan, all: &Self, pass: u32, rendered: &[u32]) {
+        let before = with_before(plan, &all.ports, rendered);
         self.ports[pass as usize].extend(before);
     }
 
@@ -53,11 +52,9 @@ impl Upstream {
 
 /// What a pass reads of this frame, and of the frame before.
 fn sources(plan: &Plan, pass: u32) -> (Vec<u32>, Vec<u32>) {
-    let roles = plan.descriptor(pass).ports.iter().map(|port| matches!(port.role, Role::History(_)));
-    let all = plan.sources(pass).iter().zip(roles).filter_map(|(source, is_before)| Some(((*source)?, is_before)));
-    let (before, now): (Vec<_>, Vec<_>) = all.partition(|(_, is_before)| *is_before);
-    let ports = |list: Vec<(u32, bool)>| list.into_iter().map(|(port, _)| port).collect();
-    (ports(now), ports(before))
+    let kinds = plan.bindings(pass).iter().flatten().map(|slot| plan.slots[*slot as usize].kind);
+    let before = kinds.filter_map(|kind| if let SlotKind::History { of, .. } = kind { Some(of) } else { None });
+    (plan.sources(pass).iter().flatten().copied().collect(), before.collect())
 }
 
 /// Ports, and what their passes were made from.
@@ -103,11 +100,6 @@ pub(crate) fn attribute(plan: &Plan, upstream: &Upstream, outcome: &mut Outcome)
     outcome.suspicions = blame.suspicions(outcome);
 }
 
-/// What of a port does not hold, where there was something to hold it against.
-fn divergences(port: &PortOutcome) -> impl Iterator<Item = &Check> {
-    port.checks.iter().filter(|check| !check.judgement.passed && check.reach != Reach::Nothing)
-}
-
 /// Which ports of a plan fail by themselves.
 struct Blame<'a> {
     plan: &'a Plan,
@@ -122,9 +114,8 @@ struct Blame<'a> {
 impl Blame<'_> {
     fn frame(&mut self, outcome: &mut Outcome, frame: u32) {
         self.earlier.append(&mut self.failing);
-        let fails_by_itself = |port: &&PortOutcome| divergences(port).any(|check| check.also_on.is_empty());
         let of_frame = || outcome.ports.iter().filter(|port| port.frame == frame);
-        of_frame().filter(fails_by_itself).for_each(|port| self.fails(&port.name));
+        of_frame().filter(|port| port.fails_by_itself()).for_each(|port| self.fails(&port.name));
         let relations = || outcome.relations.iter().filter(|each| each.frame == frame && !each.judgement.passed);
         relations().for_each(|relation| self.fails(&relation.port));
         // Of a pass that fails in one port, those that nothing holds may be as wrong.
@@ -137,13 +128,13 @@ impl Blame<'_> {
         self.failing.extend(unheld);
         // Only now is it known what a check about other ports falls with; a port that nothing excuses fails by itself.
         for port in of_frame() {
-            if !divergences(port).all(|check| self.falls_with(&port.name, &check.also_on)) {
+            if !port.divergences().all(|check| self.falls_with(&port.name, &check.also_on)) {
                 self.fails(&port.name);
             }
         }
         for port in outcome.ports.iter_mut().filter(|port| port.frame == frame && !port.passed()) {
-            let excused = divergences(port).all(|check| self.falls_with(&port.name, &check.also_on));
-            let diverges = divergences(port).next().is_some();
+            let excused = port.divergences().all(|check| self.falls_with(&port.name, &check.also_on));
+            let diverges = port.divergences().next().is_some();
             port.state = match (diverges, excused) {
                 (false, _) => State::Unjudged,
                 (true, true) => State::Inherited,
@@ -194,7 +185,7 @@ impl Blame<'_> {
                 let of_own = self.position(&port.name).into_iter().flat_map(|pass| self.upstream.ports(pass));
                 let rendered = of_own.filter(|port| self.pass_of(**port).is_some());
                 suspected.extend(rendered.filter(|port| !held.contains(self.plan.port_name(**port).as_str())));
-                let others = divergences(port).flat_map(|check| &check.also_on).filter(|other| **other != port.name);
+                let others = port.divergences().flat_map(|check| &check.also_on).filter(|other| **other != port.name);
                 suspected.extend(others.filter_map(|other| self.numbers.get(other)));
             }
             suspected.extend(relations.flat_map(|each| &each.unheld).filter_map(|port| self.numbers.get(port)));

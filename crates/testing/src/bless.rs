@@ -56,7 +56,11 @@ pub(crate) fn run(
             let tapped = ready.tapped.iter().find(|tapped| tapped.name == port.name)?;
             frame.made_from.get(&tapped.port).copied().flatten()
         });
-        let figures = if port.expected.is_some() { judged.figures.clone() } else { "new".to_owned() };
+        let after = picture.figures();
+        let (figures, content) = match &port.expected {
+            Some(before) => (judged.figures.as_str(), format!("before: {}\n    after:  {after}", before.figures())),
+            None => ("new", after),
+        };
         let written = golden::write(&folder, &port.key, picture).and_then(|path| {
             let record = Record::new(&path, adapter, made_from)?;
             records.set(&port.key, record);
@@ -70,7 +74,7 @@ pub(crate) fn run(
                 } else {
                     format!("; {} had changed", port.stale.join(", "))
                 };
-                blessed.push(format!("blessed {}: {figures}{stale}", path.display()));
+                blessed.push(format!("blessed {}: {figures}{stale}\n    {content}", path.display()));
                 port.checks[at].judgement.passed = true;
                 port.stale.clear();
                 if port.passed() {

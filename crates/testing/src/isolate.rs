@@ -26,7 +26,7 @@ pub(crate) fn run(session: &mut Session, ready: &Ready, options: &Options, outco
     let chosen = ready.tapped.iter().filter(|tapped| ready.chosen.contains(&tapped.name));
     let mut passes: Vec<u32> = chosen.map(|tapped| tapped.port.pass).collect();
     passes.dedup();
-    let mut upstream = Upstream::nothing(&ready.plan);
+    let (all, mut upstream) = (Upstream::of(&ready.plan), Upstream::nothing(&ready.plan));
     for pass in passes {
         for frame in ready.file.frames.iter().filter(|frame| options.looks_at(**frame)) {
             match inputs(ready, pass, *frame) {
@@ -35,7 +35,7 @@ pub(crate) fn run(session: &mut Session, ready: &Ready, options: &Options, outco
                         let fed = ready.inputs(pass).into_iter().map(|(_, port)| port);
                         let rendered = fed.filter(|port| !inputs.contains_key(port));
                         let rendered: Vec<u32> = rendered.filter_map(|port| ready.plan.planned(port)).collect();
-                        upstream.ran_with(&ready.plan, position, &rendered);
+                        upstream.ran_with(&ready.plan, &all, position, &rendered);
                     }
                     run_pass(session, ready, (pass, *frame), &inputs, options, outcome)?;
                 }

@@ -44,7 +44,7 @@ impl Judge<'_> {
                 continue;
             }
             let outcome = self.port(tapped, rendered);
-            if outcome.checks.iter().any(|check| !check.judgement.passed && check.also_on.is_empty()) {
+            if outcome.fails_by_itself() {
                 failing.extend(plan.planned(tapped.port));
             }
             outcomes.push(outcome);

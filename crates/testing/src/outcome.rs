@@ -210,6 +210,16 @@ impl PortOutcome {
     pub fn passed(&self) -> bool {
         self.checks.iter().all(|check| check.judgement.passed)
     }
+
+    /// What of it does not hold, where there was something to hold it against.
+    pub fn divergences(&self) -> impl Iterator<Item = &Check> + Clone {
+        self.checks.iter().filter(|check| !check.judgement.passed && check.reach != Reach::Nothing)
+    }
+
+    /// Something of it does not hold, whatever other ports come to.
+    pub fn fails_by_itself(&self) -> bool {
+        self.divergences().any(|check| check.also_on.is_empty())
+    }
 }
 
 impl Outcome {

@@ -105,6 +105,25 @@ impl Picture {
         places.map(|place| Image::new(image.width, image.height, 1, plane(place))).collect()
     }
 
+    /// What it holds in few words: mean, least and largest number, and how many are none.
+    pub(crate) fn figures(&self) -> String {
+        let image = self.compared();
+        let numbers = image.data.iter().copied().filter(|number| number.is_finite());
+        let (least, largest) = numbers.clone().fold((f32::INFINITY, f32::NEG_INFINITY), |(least, largest), number| {
+            (least.min(number), largest.max(number))
+        });
+        let count = numbers.clone().count();
+        let others = image.data.len() - count;
+        let finite = match count {
+            0 => "no number".to_owned(),
+            _ => {
+                let mean = numbers.map(f64::from).sum::<f64>() / count as f64;
+                format!("mean {mean:.4e}, {least:.4e} to {largest:.4e}")
+            }
+        };
+        if others > 0 { format!("{finite}, {others} NaN or infinite") } else { finite }
+    }
+
     /// Alpha of a colour that has one.
     pub fn alpha(&self) -> Option<Image> {
         let colour = matches!(self.class, Class::Color | Class::Display) && self.image.channels == 4;

@@ -137,9 +137,7 @@ impl Session {
         outcome.ports = rendered.iter().flat_map(|frame| judge.frame(frame)).collect();
         ready.tapped = all;
         // A check about another port as well is for the whole graph: it may be that one which fails.
-        let by_itself =
-            |port: &PortOutcome| port.checks.iter().any(|check| !check.judgement.passed && check.also_on.is_empty());
-        let fails = outcome.ports.iter().any(by_itself);
+        let fails = outcome.ports.iter().any(PortOutcome::fails_by_itself);
         attribute(&ready.plan, &Upstream::of(&ready.plan), outcome);
         Ok(fails && !outcome.guilty().is_empty())
     }

@@ -162,6 +162,12 @@ fn blessing_prints_figures_and_can_be_of_one_image() {
     let one = chain.run(&Options { tap: Some("three.result".to_owned()), ..bless() });
     assert_eq!(one.blessed.len(), 1);
     assert!(one.blessed[0].contains("relative RMSE"), "{:?}", one.blessed);
+    let mean = |what: &str| -> f64 {
+        let (_, after) = one.blessed[0].split_once(&format!("{what} mean ")).unwrap();
+        after.split_once(',').unwrap().0.parse().unwrap()
+    };
+    let ratio = mean("after: ") / mean("before:");
+    assert!(ratio > 0.5 && ratio < 0.6, "{:?}", one.blessed);
     // What follows still has its old goldens, and now it is the first that diverges.
     assert_eq!(chain.plain().guilty(), ["four"]);
     assert!(chain.run(&bless()).passed());

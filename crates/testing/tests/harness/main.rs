@@ -6,6 +6,7 @@ mod attribution;
 mod browser;
 mod chain;
 mod goldens;
+mod history;
 mod report;
 mod robustness;
 mod unordered;
