@@ -5,7 +5,8 @@ use std::path::Path;
 use tyndall_graph::descriptor::Class;
 use tyndall_image::{Error, Image, Meaning, NewFolder, encode_png, srgb_from_linear};
 
-use crate::metric::{Compared, Metric};
+use crate::flip;
+use crate::metric::{ALPHA_TOLERANCE, Compared, Metric};
 use crate::outcome::{PortOutcome, Untapped};
 use crate::picture::Picture;
 
@@ -85,7 +86,7 @@ impl Folder<'_> {
         metric: Metric,
         exposure: &Exposure,
     ) -> Result<Against, Error> {
-        let excess = excess(actual, expected, metric.scale(expected));
+        let excess = of_metric(actual, expected, metric);
         let (width, height) = flat(&actual.image);
         let largest = excess.iter().copied().filter(|excess| excess.is_finite()).fold(10.0, f64::max);
         let image = |colour: &dyn Fn(f64) -> [f32; 3]| {
@@ -150,6 +151,22 @@ impl Exposure {
         let data = compared.data.chunks_exact(channels).flat_map(|numbers| nan_is_seen(texel(numbers))).collect();
         Image::new(width, height, 3, data)
     }
+}
+
+/// How far each pixel is beyond what a metric allows, over the tolerance.
+fn of_metric(actual: &Picture, expected: &Picture, metric: Metric) -> Vec<f64> {
+    let seen = matches!(metric, Metric::Flip { .. }).then(|| flip::map(actual, expected));
+    let scale = metric.scale(expected);
+    let mut excess = match seen {
+        Some(Ok(seen)) => seen.into_iter().map(|seen| seen / scale).collect(),
+        _ => excess(actual, expected, scale),
+    };
+    if let (Some(alpha), Some(wanted)) = (actual.alpha(), expected.alpha()) {
+        for (excess, (alpha, wanted)) in excess.iter_mut().zip(alpha.data.iter().zip(&wanted.data)) {
+            *excess = excess.max(f64::from((alpha - wanted).abs()) / ALPHA_TOLERANCE);
+        }
+    }
+    excess
 }
 
 /// The largest difference of each pixel, over the tolerance.
