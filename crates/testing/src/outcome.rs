@@ -113,6 +113,9 @@ impl Problem {
             Problem::Orphan(path) if crate::golden::may_be_dropped(path) => {
                 format!("no tap claims the golden `{}`: delete it, or bless to drop it", path.display())
             }
+            Problem::Orphan(path) if path.to_string_lossy().ends_with(crate::file::GOLDENS) => {
+                format!("no test claims the goldens `{}`: delete them, or restore their test", path.display())
+            }
             Problem::Orphan(path) => {
                 format!(
                     "`{}` lies among goldens, and no test knows it: delete it, or move it elsewhere",
