@@ -31,7 +31,7 @@ pub fn check_run(
             );
             continue;
         }
-        let size = |plan: &Plan| plan.planned(port).map(|port| plan.resource(port).clone());
+        let size = |plan: &Plan| plan.planned(port).map(|port| *plan.resource(port));
         // The reference on the CPU says what is right at any size.
         if size(own.1) != size(other.1) && !matches!(expected.change, Change::CpuReference(_)) {
             let message =
