@@ -223,17 +223,23 @@ fn relations_between_runs() {
             "relations: [(about: \"twice the factor\", runs: [{{ \"twice.factor\": (2.0, 2.0, 2.0) }}], expect: {{ \"twice.scaled\": Scaled(factor: {factor:?}, by: RelativeRmse(1e-6)), \"five.result\": Same(by: Exact) }})]"
         )
     };
-    let run = |factor| {
+    let run = |factor, tap: Option<&str>| {
         chain.test("\"start.*\": (properties: [Finite])", &relation(factor));
         let search = vec![tyndall_plugin::SearchPath { path: chain.path("plugins"), required: true }];
         let mut session = tyndall_testing::Session::new(vec![tyndall_core::plugin], search, None).unwrap();
-        let options = Options { without_goldens: true, ..Options::default() };
+        let options = Options { without_goldens: true, tap: tap.map(str::to_owned), ..Options::default() };
         session.run(&chain.path("chain.test.ron"), &options)
     };
-    let right = run(2.0);
+    let right = run(2.0, None);
     assert!(right.passed() && right.relations.len() == 2, "{}", right.text());
-    let wrong = run(3.0);
+    let wrong = run(3.0, None);
     assert!(!wrong.passed() && wrong.text().contains("twice the factor"), "{}", wrong.text());
+    assert!(wrong.text().contains("first diverging pass: `twice` (core.scale)"), "{}", wrong.text());
+    // Of a relation only what is about the chosen ports is asked.
+    let other = run(3.0, Some("five.*"));
+    assert!(other.passed() && other.relations.len() == 1, "{}", other.text());
+    let none = run(3.0, Some("start.*"));
+    assert!(none.passed() && none.relations.is_empty(), "{}", none.text());
 }
 
 #[test]
