@@ -42,10 +42,10 @@ fn fan_of(light: Light, start: vec3<f32>, end: vec3<f32>) -> Fan {
     let low = min(nearer, select(light.position, nearer + sun_way, is_sun));
     let high = max(farther, select(light.position, farther + sun_way, is_sun));
     let normal = cross(end - start, to_light);
+    // outward, as (e x l) x l has no part along e that is above 0
     let before = cross(normal, to_light);
-    let behind = cross(normal, from_end);
-    return Fan(start, low, high, normal, select(before, -before, dot(before, end - start) > 0.0), end,
-        select(behind, -behind, dot(behind, start - end) > 0.0));
+    let behind = cross(from_end, normal);
+    return Fan(start, low, high, normal, before, end, behind);
 }
 
 // Whether all of a box is on the outer side of a plane through a point.
