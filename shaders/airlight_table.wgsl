@@ -96,11 +96,11 @@ fn nodes_of_texel(texel: vec2<u32>, size: vec2<u32>, width: f32) -> TauNodes {
     return tau_nodes(0.0, length, TABLE_DEPTH * share.x, width);
 }
 
-// A table at a place, 0 to 1 from its first to its last texels, of which there are two at least, clamped, bilinear. By hand: not every device filters f32.
+// A table at a place, 0 to 1 from its first to its last texels, clamped, bilinear. By hand: not every device filters f32.
 fn bilinear(table: texture_2d<f32>, place: vec2<f32>) -> vec4<f32> {
     let last = vec2<f32>(textureDimensions(table)) - 1.0;
-    let at = clamp(place, vec2<f32>(0.0), vec2<f32>(1.0)) * last;
-    let low = floor(min(at, last - 1.0));
+    let at = saturate(place) * last;
+    let low = floor(at);
     let part = at - low;
     let a = vec2<u32>(low);
     let b = vec2<u32>(min(low + 1.0, last));
