@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use tyndall_graph::{Plan, SlotKind};
 
-use crate::outcome::{Outcome, PortOutcome, Reach, State, Suspicion};
+use crate::outcome::{Check, Outcome, PortOutcome, Reach, State, Suspicion};
 
 /// What each pass of a plan was made from, in the run that is judged: ports, by the position of the pass. A port that was
 /// given to a pass is not among them, and neither is what lies before it.
@@ -185,8 +185,9 @@ impl Blame<'_> {
                 let of_own = self.position(&port.name).into_iter().flat_map(|pass| self.upstream.ports(pass));
                 let rendered = of_own.filter(|port| self.pass_of(**port).is_some());
                 suspected.extend(rendered.filter(|port| !held.contains(self.plan.port_name(**port).as_str())));
-                let others = port.divergences().flat_map(|check| &check.also_on).filter(|other| **other != port.name);
-                suspected.extend(others.filter_map(|other| self.numbers.get(other)));
+                let others = port.divergences().flat_map(|check| check.also_on.iter().map(move |other| (check, other)));
+                let open = others.filter(|(check, other)| **other != port.name && !is_above(outcome, check, other));
+                suspected.extend(open.filter_map(|(_, other)| self.numbers.get(other)));
             }
             suspected.extend(relations.flat_map(|each| &each.unheld).filter_map(|port| self.numbers.get(port)));
             if !suspected.is_empty() {
@@ -196,6 +197,14 @@ impl Blame<'_> {
         }
         suspicions
     }
+}
+
+/// Another port is held so strictly that it cannot be what a check found: then it is not the one that is wrong.
+fn is_above(outcome: &Outcome, check: &Check, other: &str) -> bool {
+    let of_other = outcome.ports.iter().filter(|port| port.name == other);
+    let held = of_other.flat_map(|port| &port.checks).filter(|held| held.judgement.passed);
+    let mut metrics = held.filter_map(|held| held.by);
+    check.by.is_some_and(|by| metrics.any(|metric| metric.excludes(&by, &check.judgement)))
 }
 
 /// Something holds every number of a port.

@@ -1,13 +1,12 @@
 //! Blessing: what was rendered becomes what is expected.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
 use crate::adapter::AdapterClass;
 use crate::blame::Upstream;
 use crate::golden::{self, Record};
 use crate::options::Options;
-use crate::outcome::{Check, GOLDEN, Outcome, PortOutcome, Problem, State};
+use crate::outcome::{GOLDEN, Outcome, PortOutcome, Problem, State};
 use crate::run::Ready;
 use crate::session::Rendered;
 
@@ -81,7 +80,10 @@ pub(crate) fn run(
                     port.state = State::Passed;
                 }
             }
-            Err(why) => outcome.problems.push(Problem::Machine(format!("{}: {why}", port.name))),
+            Err(why) => outcome.problems.push(match why.is_of_machine {
+                true => Problem::Machine(format!("{}: {}", port.name, why.what)),
+                false => Problem::NotBlessed(format!("{}: {}", port.name, why.what)),
+            }),
         }
     }
     // Nothing goes before what takes its place is there.
@@ -97,10 +99,10 @@ pub(crate) fn run(
 /// not become right by it, and neither does what is made from it.
 fn refused(ready: &Ready, outcome: &Outcome) -> BTreeMap<String, String> {
     let plan = &ready.plan;
-    // A golden that differs and is not to be blessed now is wrong like anything else.
-    let wrong = |port: &&PortOutcome| {
-        let stays = |check: &Check| check.what != GOLDEN || !ready.chosen.contains(&port.name);
-        port.checks.iter().any(|check| stays(check) && !check.judgement.passed)
+    // A golden that differs and is not to be blessed now is wrong like anything else; one that is missing says nothing.
+    let wrong = |port: &&PortOutcome| match ready.chosen.contains(&port.name) {
+        true => port.checks.iter().any(|check| check.what != GOLDEN && !check.judgement.passed),
+        false => port.divergences().next().is_some(),
     };
     let ports = outcome.ports.iter().filter(wrong).map(|port| port.pass.clone());
     let relations = outcome.relations.iter().filter(|relation| !relation.judgement.passed);
@@ -128,8 +130,7 @@ fn refused(ready: &Ready, outcome: &Outcome) -> BTreeMap<String, String> {
 fn drop_orphans(ready: &Ready, records: &mut golden::Records, outcome: &mut Outcome, blessed: &mut Vec<String>) {
     let folder = ready.file.goldens();
     let claimed = crate::run::claimed(ready);
-    let is_image = |path: &PathBuf| path.extension().is_some_and(|suffix| suffix == "exr" || suffix == "png");
-    for orphan in golden::orphans(&folder, &claimed).into_iter().filter(is_image) {
+    for orphan in golden::orphans(&folder, &claimed).into_iter().filter(|path| golden::may_be_dropped(path)) {
         match std::fs::remove_file(&orphan) {
             Ok(()) => blessed.push(format!("deleted {}: no tap claims it", orphan.display())),
             Err(error) => outcome.problems.push(Problem::NotBlessed(format!("{}: {error}", orphan.display()))),
@@ -141,6 +142,6 @@ fn drop_orphans(ready: &Ready, records: &mut golden::Records, outcome: &mut Outc
     if *records != before
         && let Err(why) = records.write(&folder)
     {
-        outcome.problems.push(Problem::NotBlessed(why));
+        outcome.problems.push(Problem::NotBlessed(why.what));
     }
 }

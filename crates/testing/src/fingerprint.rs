@@ -76,7 +76,8 @@ fn of_pass(
         match setting {
             ParamSetting::Value(ParamValue::File(path)) => parameters.bytes(&std::fs::read(path).unwrap_or_default()),
             ParamSetting::Value(value) => parameters.text(&value.to_string()),
-            ParamSetting::Frame | ParamSetting::Time => parameters.number(u64::from(frame)),
+            ParamSetting::Frame => parameters.text(&format!("frame {frame}")),
+            ParamSetting::Time => parameters.text(&format!("time of frame {frame}")),
         }
     }
     for name in &descriptor.scene {

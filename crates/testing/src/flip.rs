@@ -2,7 +2,7 @@
 
 use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8};
 use tyndall_graph::descriptor::Class;
-use tyndall_image::metrics;
+use tyndall_image::{Image, metrics};
 
 use crate::picture::Picture;
 
@@ -12,27 +12,38 @@ pub(crate) struct Flip {
     pub p99: f64,
 }
 
-/// Compares two display pictures.
+/// Compares two display pictures, layer by layer.
 pub(crate) fn compare(actual: &Picture, expected: &Picture) -> Result<Flip, String> {
-    if actual.class != Class::Display {
-        return Err(format!("FLIP says what a person sees, and a {} port is for no eye", actual.class));
-    }
-    let ((width, height), wanted) =
-        ((actual.image.width, actual.image.height), (expected.image.width, expected.image.height));
-    if (width, height) != wanted {
-        return Err(format!("the picture is {width}x{height} and the expected one {}x{}", wanted.0, wanted.1));
-    }
-    if actual.image.data.iter().any(|value| value.is_nan()) {
-        return Err("NaN has no colour".to_owned());
-    }
-    let image = |picture: &Picture| FlipImageRgb8::with_data(width, height, &rgb8(picture));
-    let map = nv_flip::flip(image(expected), image(actual), DEFAULT_PIXELS_PER_DEGREE);
-    let mut errors: Vec<f64> = map.to_vec().into_iter().map(f64::from).collect();
+    let mut errors = map(actual, expected)?;
     let mean = errors.iter().sum::<f64>() / errors.len() as f64;
     let spread = metrics::percentiles(&mut errors).ok_or("the picture has no pixels")?;
     Ok(Flip { mean, p99: spread.p99 })
 }
 
-fn rgb8(picture: &Picture) -> Vec<u8> {
-    picture.compared().data.iter().map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8).collect()
+/// FLIP of every pixel, 0 (no difference) to 1.
+pub(crate) fn map(actual: &Picture, expected: &Picture) -> Result<Vec<f64>, String> {
+    if actual.class != Class::Display {
+        return Err(format!("FLIP says what a person sees, and a {} port is for no eye", actual.class));
+    }
+    let [actual, expected] = [actual, expected].map(Picture::compared);
+    metrics::same_shape(&actual, &expected).map_err(|error| error.to_string())?;
+    if actual.data.iter().chain(&expected.data).any(|value| value.is_nan()) {
+        return Err("NaN has no colour".to_owned());
+    }
+    let Image { width, height, layers, channels, .. } = actual;
+    if ![1, 3].contains(&channels) {
+        return Err(format!("{channels} channels are no colour: FLIP compares grey, or red, green and blue"));
+    }
+    let texels = (width * height * channels) as usize;
+    let layer = |image: &Image, layer: u32| {
+        let numbers = &image.data[layer as usize * texels..][..texels];
+        FlipImageRgb8::with_data(width, height, &rgb8(numbers, channels))
+    };
+    let errors = |at| nv_flip::flip(layer(&expected, at), layer(&actual, at), DEFAULT_PIXELS_PER_DEGREE).to_vec();
+    Ok((0..layers).flat_map(errors).map(f64::from).collect())
+}
+
+fn rgb8(numbers: &[f32], channels: u32) -> Vec<u8> {
+    let code = |value: &f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
+    numbers.iter().flat_map(|value| std::iter::repeat_n(code(value), if channels == 1 { 3 } else { 1 })).collect()
 }

@@ -74,13 +74,12 @@ impl Judge<'_> {
             outcome.checks.push(Check::new("rendered", Reach::EveryNumber, judgement));
             return outcome;
         };
-        let with_goldens = !self.options.without_goldens && self.options.size.is_none();
+        let with_goldens = !self.options.without_goldens && !self.ready.resized;
         if with_goldens {
             self.golden(tapped, rendered, &actual, &mut outcome);
             self.reference(tapped, &actual, &mut outcome);
         }
-        let of_any_size =
-            |property: &&Property| self.options.size.is_none() || !matches!(property, Property::Mean { .. });
+        let of_any_size = |property: &&Property| !self.ready.resized || !matches!(property, Property::Mean { .. });
         for property in tapped.properties.iter().filter(of_any_size) {
             outcome.checks.push(self.property(property, tapped, &actual, rendered));
         }
@@ -98,9 +97,10 @@ impl Judge<'_> {
         let actual = outcome.actual.insert(thinned);
         let check = match golden::read(&self.ready.file.goldens(), &outcome.key, records, actual) {
             Ok(expected) => {
-                let judgement = golden.metric(self.adapter).judge(actual, &expected);
+                let metric = golden.metric(self.adapter);
+                let judgement = metric.judge(actual, &expected);
                 outcome.expected = Some(expected);
-                Check::new(GOLDEN, Reach::EveryNumber, judgement)
+                Check { by: Some(metric), ..Check::new(GOLDEN, Reach::EveryNumber, judgement) }
             }
             Err(missing) => Check::new(GOLDEN, Reach::Nothing, Judgement::failed(missing.to_string())),
         };
@@ -115,7 +115,7 @@ impl Judge<'_> {
                 let wanted = actual.compared().channels;
                 let expected = Picture::new(golden::as_port(image.first_channels(wanted), actual.class), actual.class);
                 let judgement = reference.metric.judge(&Picture::new(actual.compared(), actual.class), &expected);
-                Check::new(&what, Reach::EveryNumber, judgement)
+                Check { by: Some(reference.metric), ..Check::new(&what, Reach::EveryNumber, judgement) }
             }
             Err(error) => Check::new(&what, Reach::Nothing, Judgement::failed(error.to_string())),
         });
@@ -128,8 +128,9 @@ impl Judge<'_> {
         let judgement = property::judge(property, actual, &other, &computed);
         let ports = property.ports().iter().filter_map(|name| find(graph, name));
         let also_on = ports.map(|port| graph.port_name(port)).collect();
-        let reach = if property.is_whole() { Reach::EveryNumber } else { Reach::Something };
-        Check { also_on, ..Check::new(&property::name(property), reach, judgement) }
+        let by = property.metric();
+        let reach = if by.is_some() { Reach::EveryNumber } else { Reach::Something };
+        Check { also_on, by, ..Check::new(&property::name(property), reach, judgement) }
     }
 
     fn computed(&self, tapped: &Tapped, actual: &Picture, rendered: &Rendered) -> Result<Picture, String> {
@@ -206,6 +207,6 @@ impl Computing<'_> {
 
 impl Check {
     pub(crate) fn new(what: &str, reach: Reach, judgement: Judgement) -> Self {
-        Self { what: what.to_owned(), judgement, reach, also_on: Vec::new() }
+        Self { what: what.to_owned(), judgement, reach, by: None, also_on: Vec::new() }
     }
 }

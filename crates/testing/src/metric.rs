@@ -57,7 +57,7 @@ pub struct Compared {
 }
 
 /// Alpha of a colour is 1 by definition, so it has a tolerance of its own: the rounding of a half float.
-const ALPHA_TOLERANCE: f64 = 5e-4;
+pub(crate) const ALPHA_TOLERANCE: f64 = 5e-4;
 
 impl Metric {
     /// The largest relative error for which nobody need say why.
@@ -109,8 +109,29 @@ impl Metric {
                 let (sum, count) = numbers.fold((0.0, 0), |(sum, count), v| (sum + f64::from(v).powi(2), count + 1));
                 tolerance * (sum / f64::from(count.max(1))).sqrt()
             }
-            Metric::Flip { mean, .. } => mean,
+            Metric::Flip { mean, p99 } => p99.unwrap_or(mean),
         }
+    }
+
+    /// What a judgement by this metric measured, in the unit of the tolerance; `None` where that is not known.
+    pub(crate) fn measured(&self, judgement: &Judgement) -> Option<f64> {
+        let tolerance = self.tolerance()?;
+        Some(judgement.excess * tolerance).filter(|measured| measured.is_finite())
+    }
+
+    /// The one number that it allows.
+    fn tolerance(&self) -> Option<f64> {
+        match *self {
+            Metric::Absolute { tolerance, .. } | Metric::RelativeRmse { tolerance } => Some(tolerance),
+            Metric::Exact | Metric::Flip { .. } => None,
+        }
+    }
+
+    /// What is held by this metric differs by less than was measured by another one.
+    pub(crate) fn excludes(&self, measured_by: &Metric, judgement: &Judgement) -> bool {
+        let is_like = std::mem::discriminant(self) == std::mem::discriminant(measured_by);
+        let measured = measured_by.measured(judgement).filter(|_| is_like);
+        *self == Metric::Exact || self.tolerance().zip(measured).is_some_and(|(tolerance, found)| tolerance < found)
     }
 
     /// Compares; pictures that cannot be compared do not pass.
@@ -128,6 +149,7 @@ impl Metric {
     fn try_judge(&self, actual: &Picture, expected: &Picture) -> Result<Judgement, String> {
         let said = |error: metrics::Incomparable| error.to_string();
         let (image, wanted) = (actual.compared(), expected.compared());
+        metrics::same_shape(&image, &wanted).map_err(said)?;
         if let Some(alpha) = alpha_mistake(actual, expected)? {
             return Ok(Judgement::failed(alpha));
         }
@@ -153,8 +175,6 @@ impl Metric {
                 Ok(Judgement::new(part <= failing, figures, over(largest, tolerance)))
             }
             Metric::RelativeRmse { tolerance } => {
-                // Pictures of different shape have no planes to compare.
-                metrics::same_shape(&image, &wanted).map_err(said)?;
                 let like_actual = Picture { image: expected.image.clone(), ..*actual };
                 let mut worst = 0.0f64;
                 for (image, wanted) in actual.planes().iter().zip(&like_actual.planes()) {

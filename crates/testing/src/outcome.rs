@@ -110,8 +110,17 @@ impl Problem {
                 mistakes.iter().next().map_or_else(String::new, |first| format!("{}: {}", first.code, first.message))
             }
             Problem::Machine(why) => format!("cannot run: {why}"),
-            Problem::Orphan(path) => {
+            Problem::Orphan(path) if crate::golden::may_be_dropped(path) => {
                 format!("no tap claims the golden `{}`: delete it, or bless to drop it", path.display())
+            }
+            Problem::Orphan(path) if path.to_string_lossy().ends_with(crate::file::GOLDENS) => {
+                format!("no test claims the goldens `{}`: delete them, or restore their test", path.display())
+            }
+            Problem::Orphan(path) => {
+                format!(
+                    "`{}` lies among goldens, and no test knows it: delete it, or move it elsewhere",
+                    path.display()
+                )
             }
             Problem::OrphanRecord(name) => {
                 format!("the record of the golden `{name}` has no file, and no tap claims it: bless to drop it")
@@ -171,6 +180,8 @@ pub struct Check {
     pub judgement: Judgement,
     /// How much it says of the port.
     pub reach: Reach,
+    /// By which metric, where it says what every number is.
+    pub by: Option<Metric>,
     /// Other ports that it depends on, `pass.port`, beside those upstream.
     pub also_on: Vec<String>,
 }

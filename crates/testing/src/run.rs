@@ -12,7 +12,7 @@ use tyndall_render::{Error, Loaded, load};
 
 use crate::adapter::AdapterClass;
 use crate::blame::{Upstream, attribute};
-use crate::file::{Change, Expectation, Tapped, TestFile, check, check_run, matches, read};
+use crate::file::{Change, Expectation, Property, Tapped, TestFile, check, check_run, matches, read};
 use crate::fingerprint::Fingerprint;
 use crate::golden::{self, Records};
 use crate::judge::{Computing, Judge};
@@ -35,6 +35,8 @@ pub(crate) struct Ready {
     /// Of these, what somebody wants to know of. The others are what that was made from.
     pub chosen: BTreeSet<String>,
     pub records: Records,
+    /// It runs in another size than its own, for which what it states of its size says nothing.
+    pub resized: bool,
 }
 
 /// Another run of a relation.
@@ -88,7 +90,8 @@ impl Session {
             outcome.ports = judged.flat_map(|frame| judge.frame(frame)).collect();
             self.judged(judging);
             let decided = options.until_failure && !outcome.ports.iter().all(PortOutcome::passed);
-            if options.size.is_none() && !decided {
+            outcome.left_out.extend(ready.left_out_by_size());
+            if !ready.resized && !decided {
                 outcome.relations = self.relations(&ready, &rendered, options)?;
             }
             attribute(&ready.plan, &Upstream::of(&ready.plan), outcome);
@@ -100,7 +103,7 @@ impl Session {
             let chosen = |port: &PortOutcome| ready.chosen.contains(&port.name) || port.state != State::Passed;
             outcome.ports.retain(chosen);
         }
-        if options.size.is_none() && !options.without_goldens {
+        if !ready.resized && !options.without_goldens {
             let claimed = claimed(&ready);
             let orphans = golden::orphans(&ready.file.goldens(), &claimed);
             outcome.problems.extend(orphans.into_iter().map(Problem::Orphan));
@@ -152,7 +155,8 @@ impl Session {
     fn ready(&mut self, path: &Path, options: &Options, outcome: &mut Outcome) -> Result<Ready, Error> {
         let mut out = Diagnostics::default();
         let Some(mut file) = read(path, &mut out) else { return Err(out.into()) };
-        if options.size.is_some() {
+        let resized = options.size.is_some() && options.size != file.request.size;
+        if resized {
             file.request.size = options.size;
         }
         let registry = self.registry(&file.request.graph)?;
@@ -177,7 +181,7 @@ impl Session {
         let needed = needed(graph, &plan, &chosen);
         let chosen = chosen.into_iter().map(|tapped| tapped.name.clone()).collect();
         tapped.retain(|tapped| needed.contains(&tapped.port));
-        Ok(Ready { file, registry, loaded, plan, tapped, chosen, records })
+        Ok(Ready { file, registry, loaded, plan, tapped, chosen, records, resized })
     }
 
     fn relations(&mut self, ready: &Ready, own: &[Rendered], options: &Options) -> Result<Vec<RelationOutcome>, Error> {
@@ -202,11 +206,11 @@ impl Session {
                 let mut out = Diagnostics::default();
                 let loaded = load(&request, &ready.registry, &mut out).filter(|_| !out.has_errors());
                 let Some(loaded) = loaded else { return Err(out.into()) };
-                check_run(&ready.file, relation, &ready.loaded, &loaded, &mut out);
+                let plan = Self::plan(&loaded.graph, Roots::Ports(rendering.clone()), Variation::PLAIN)?;
+                check_run(&ready.file, relation, (&ready.loaded, &ready.plan), (&loaded, &plan), &mut out);
                 if out.has_errors() {
                     return Err(out.into());
                 }
-                let plan = Self::plan(&loaded.graph, Roots::Ports(rendering.clone()), Variation::PLAIN)?;
                 let frames = &ready.file.frames;
                 let rendered = self.render(&loaded, &ready.registry, &rendering, frames, Variation::PLAIN)?;
                 changed.extend(self.made_from_other(ready, &loaded, &plan));
@@ -303,6 +307,20 @@ impl Ready {
         inputs_of(&self.plan, pass)
     }
 
+    /// What is not asked where it runs in another size than its own.
+    fn left_out_by_size(&self) -> Option<String> {
+        let any = |asks: &dyn Fn(&Tapped) -> bool| self.tapped.iter().any(asks);
+        let is_mean = |property: &Property| matches!(property, Property::Mean { .. });
+        let parts = [
+            ("goldens", any(&|tapped| tapped.golden.is_some())),
+            ("other renderers' pictures", any(&|tapped| tapped.reference.is_some())),
+            ("means", any(&|tapped| tapped.properties.iter().any(is_mean))),
+            ("relations", !self.file.relations.is_empty()),
+        ];
+        let parts: Vec<&str> = parts.into_iter().filter_map(|(what, is_there)| is_there.then_some(what)).collect();
+        (self.resized && !parts.is_empty()).then(|| format!("in another size than its own: {}", parts.join(", ")))
+    }
+
     /// The name of a golden.
     pub fn key(&self, port: &str, frame: u32) -> String {
         golden::key(port, frame, self.file.frames.len() > 1)
@@ -332,7 +350,7 @@ fn needed(graph: &Graph, plan: &Plan, chosen: &[&Tapped]) -> BTreeSet<PortRef> {
 
 impl Tapped {
     fn asks_cpu(&self) -> bool {
-        self.properties.iter().any(|property| matches!(property, crate::file::Property::CpuReference { .. }))
+        self.properties.iter().any(|property| matches!(property, Property::CpuReference { .. }))
     }
 }
 

@@ -198,7 +198,9 @@ pub(crate) fn escaped(text: &str) -> String {
             '>' => out += "&gt;",
             '"' => out += "&quot;",
             '\n' | '\t' => out.push(letter),
-            control if control.is_control() => out.push('\u{fffd}'),
+            unwritable if unwritable.is_control() || matches!(unwritable, '\u{fffe}' | '\u{ffff}') => {
+                out.push('\u{fffd}')
+            }
             other => out.push(other),
         }
     }
@@ -219,6 +221,6 @@ mod tests {
 
     #[test]
     fn xml_is_escaped() {
-        assert_eq!(escaped("a<b> & \"c\"\u{1b}\n"), "a&lt;b&gt; &amp; &quot;c&quot;\u{fffd}\n");
+        assert_eq!(escaped("a<b> & \"c\"\u{1b}\u{ffff}\n"), "a&lt;b&gt; &amp; &quot;c&quot;\u{fffd}\u{fffd}\n");
     }
 }

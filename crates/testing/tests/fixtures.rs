@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use tyndall_document::{Diagnostics, Source, fixture};
+use tyndall_graph::{PlanOptions, plan};
 use tyndall_plugin::{Registry, SearchPath};
 use tyndall_render::{Error, Loaded, load};
 use tyndall_testing::codes::STALE_REASON;
@@ -41,7 +42,8 @@ fn rerun(file: &TestFile, own: &Loaded, registry: &Registry, out: &mut Diagnosti
             let mut request = file.request.clone();
             request.set.extend(settings.iter().cloned());
             let other = load(&request, registry, out).unwrap();
-            check_run(file, relation, own, &other, out);
+            let planned = |loaded: &Loaded| plan(&loaded.graph, &PlanOptions::new(loaded.graph.size)).unwrap();
+            check_run(file, relation, (own, &planned(own)), (&other, &planned(&other)), out);
         }
     }
 }

@@ -14,7 +14,11 @@ use crate::terminal;
 pub(crate) fn run(verb: &Diff) -> Result<(), Failure> {
     let metrics = verb.by.iter().map(|text| parse_metric(text, &format!("--by {text}")));
     let metrics = metrics.collect::<Result<Vec<Metric>, _>>()?;
-    let (image, reference) = (tyndall_image::read(&verb.image)?, tyndall_image::read(&verb.reference)?);
+    let (mut image, mut reference) = (tyndall_image::read(&verb.image)?, tyndall_image::read(&verb.reference)?);
+    if let (3, 4) | (4, 3) = (image.channels, reference.channels) {
+        terminal::line("only one of them has alpha: red, green and blue are compared");
+        (image, reference) = (image.first_channels(3), reference.first_channels(3));
+    }
     if let Err(why) = metrics::absolute(&image, &reference, 0.0) {
         return Err(Failure::Usage(format!("{} and {}: {why}", verb.image.display(), verb.reference.display())));
     }
@@ -45,7 +49,6 @@ fn usual(display: bool) -> Vec<Metric> {
 
 fn picture(image: &Image, seen: bool) -> Picture {
     match (seen, image.channels) {
-        (true, 1) => Picture::new(shown(&spread(image)), Class::Display),
         (true, _) => Picture::new(shown(image), Class::Display),
         (false, 3 | 4) => Picture::new(image.clone(), Class::Color),
         (false, _) => Picture::new(image.clone(), Class::Data),
@@ -57,9 +60,4 @@ fn shown(image: &Image) -> Image {
     let channels = image.channels as usize;
     let encode = |(index, value): (usize, &f32)| if index % channels == 3 { *value } else { srgb_from_linear(*value) };
     Image { data: image.data.iter().enumerate().map(encode).collect(), ..*image }
-}
-
-/// Grey as a colour.
-fn spread(image: &Image) -> Image {
-    Image { channels: 3, data: image.data.iter().flat_map(|value| [*value; 3]).collect(), ..*image }
 }

@@ -106,16 +106,18 @@ impl Checker<'_> {
                 Err(problem) => self.out.push(Diagnostic { code: codes::UNKNOWN_TAP, ..problem }),
             }
         }
-        self.references_exist();
+        self.changes_fit();
     }
 
-    /// References on the CPU that relations ask.
-    fn references_exist(&mut self) {
-        let asked = self.file.relations.iter().flat_map(|relation| &relation.expect);
-        for expectation in asked.filter(|expectation| matches!(expectation.change, Change::CpuReference(_))) {
+    /// What relations ask of ports: references on the CPU are there, and metrics are such as ports have.
+    fn changes_fit(&mut self) {
+        for expectation in self.file.relations.iter().flat_map(|relation| &relation.expect) {
             let place = self.file.place(expectation.span);
             let Ok(port) = self.graph.find(&expectation.port, place.clone()) else { continue };
-            if let Some((code, why)) = self.without_reference(port) {
+            let asks_cpu = matches!(expectation.change, Change::CpuReference(_));
+            let without = || self.without_reference(port).filter(|_| asks_cpu);
+            let unseen = || expectation.change.metric().and_then(|by| self.unseen(port, &by));
+            if let Some((code, why)) = without().or_else(unseen) {
                 self.out.push(Diagnostic::error(code, place, why));
             }
         }
@@ -145,21 +147,23 @@ impl Checker<'_> {
                 }
             }
         }
-        let golden = tapped.golden.as_ref().map(|golden| (golden.metric, self.file.place(golden.span)));
-        let reference = tapped
-            .reference
-            .as_ref()
-            .map(|reference| (reference.metric, Place::File(reference.file.display().to_string())));
-        for (metric, place) in golden.into_iter().chain(reference) {
-            if matches!(metric, Metric::Flip { .. })
-                && class(self.graph, port).is_some_and(|class| class != Class::Display)
-            {
-                let message = format!("FLIP says what a person sees, and `{}` is for no eye", tapped.name);
-                let problem = Diagnostic::error(codes::WRONG_CHECK, place, message);
+        let golden = tapped.golden.as_ref().map(|golden| (golden.metric, golden.span));
+        let reference = tapped.reference.as_ref().map(|reference| (reference.metric, reference.span));
+        for (metric, span) in golden.into_iter().chain(reference) {
+            if let Some((code, why)) = self.unseen(port, &metric) {
+                let problem = Diagnostic::error(code, self.file.place(span), why);
                 self.out.push(problem.suggest("give it RelativeRmse, in a tap that stands later"));
             }
         }
         found.then_some(tapped)
+    }
+
+    /// Why a metric is none for a port, where it is that of the eye.
+    fn unseen(&self, port: PortRef, metric: &Metric) -> Option<(tyndall_document::Code, String)> {
+        let is_unseen = matches!(metric, Metric::Flip { .. })
+            && class(self.graph, port).is_some_and(|class| class != Class::Display);
+        let message = || format!("FLIP says what a person sees, and `{}` is for no eye", self.graph.port_name(port));
+        is_unseen.then(|| (codes::WRONG_CHECK, message()))
     }
 
     /// Why a property cannot be asked of a port, where it cannot.
@@ -177,8 +181,8 @@ impl Checker<'_> {
                 wrong("is no colour and has no alpha")
             }
             Property::UnitLength { .. } if class != Some(Class::Vector) => wrong("holds no vectors"),
-            Property::CpuReference { .. } => self.without_reference(port),
-            _ => None,
+            Property::CpuReference { by } => self.without_reference(port).or_else(|| self.unseen(port, by)),
+            _ => property.metric().and_then(|by| self.unseen(port, &by)),
         }
     }
 }
@@ -201,12 +205,15 @@ fn suggest_near(problem: Diagnostic, pattern: &str, names: &[String]) -> Diagnos
 
 /// Whether a pattern matches a name; `*` stands for any characters.
 pub(crate) fn matches(pattern: &str, name: &str) -> bool {
-    match pattern.split_once('*') {
-        None => pattern == name,
-        Some((head, rest)) => name.strip_prefix(head).is_some_and(|tail| {
-            tail.char_indices().map(|(at, _)| at).chain([tail.len()]).any(|at| matches(rest, &tail[at..]))
-        }),
+    let Some((head, rest)) = pattern.split_once('*') else { return pattern == name };
+    let (parts, last) = rest.rsplit_once('*').unwrap_or(("", rest));
+    let Some(mut left) = name.strip_prefix(head) else { return false };
+    // The first place where a part stands leaves the most for those after it.
+    for part in parts.split('*') {
+        let Some(at) = left.find(part) else { return false };
+        left = &left[at + part.len()..];
     }
+    left.ends_with(last)
 }
 
 #[cfg(test)]
@@ -215,10 +222,20 @@ mod tests {
 
     #[test]
     fn patterns() {
-        for (pattern, name) in [("*", "a.b"), ("a.*", "a.b"), ("*.b", "a.b"), ("a.b", "a.b"), ("a*.b*", "air.bee")] {
+        for (pattern, name) in [
+            ("*", "a.b"),
+            ("a.*", "a.b"),
+            ("*.b", "a.b"),
+            ("a.b", "a.b"),
+            ("a*.b*", "air.bee"),
+            ("a*b*b", "abb"),
+            ("**", ""),
+        ] {
             assert!(matches(pattern, name), "{pattern} {name}");
         }
-        for (pattern, name) in [("a.*", "b.a"), ("*.b", "a.bee"), ("a.b", "a.bb"), ("a.*c", "a.cb")] {
+        for (pattern, name) in
+            [("a.*", "b.a"), ("*.b", "a.bee"), ("a.b", "a.bb"), ("a.*c", "a.cb"), ("ab*ba", "aba"), ("a*b*b", "ab")]
+        {
             assert!(!matches(pattern, name), "{pattern} {name}");
         }
     }

@@ -115,7 +115,16 @@ fn property(decoder: &mut Decoder<'_>, node: &Node) -> Option<Property> {
         ("NonNegative", None) => Some(Property::NonNegative),
         ("AlphaOne", None) => Some(Property::AlphaOne),
         ("Varies", None) => Some(Property::Varies),
-        ("Range", Some(content)) => decoder.floats::<2>(content).map(|[low, high]| Property::Range(low, high)),
+        ("Range", Some(content)) => {
+            let [low, high] = decoder.floats::<2>(content)?;
+            if low.is_nan() || high.is_nan() || low > high {
+                let message = format!("no number lies within {low}..{high}");
+                let problem = Diagnostic::error(codes::WRONG_CHECK, decoder.place(content.span), message);
+                decoder.report(problem.suggest("write the lower bound first"));
+                return None;
+            }
+            Some(Property::Range(low, high))
+        }
         ("UnitLength", Some(content)) => {
             let fields = decoder.fields(content, "`UnitLength`", &["within", "or_zero"])?;
             let or_zero = fields.get("or_zero").map_or(Some(false), |node| decoder.bool(node));
@@ -132,7 +141,13 @@ fn property(decoder: &mut Decoder<'_>, node: &Node) -> Option<Property> {
         ("Sum", Some(content)) => {
             let fields = decoder.fields(content, "`Sum`", &["ports", "by"])?;
             let node = fields.required(decoder, "ports")?;
-            let ports = decoder.list(node)?.iter().map(|item| decoder.text(item).map(str::to_owned));
+            let items = decoder.list(node)?;
+            if items.is_empty() {
+                let place = decoder.place(node.span);
+                decoder.report(Diagnostic::error(codes::WRONG_CHECK, place, "this is the sum of no ports"));
+                return None;
+            }
+            let ports = items.iter().map(|item| decoder.text(item).map(str::to_owned));
             Some(Property::Sum { ports: ports.collect::<Option<_>>()?, by: by(decoder, &fields)? })
         }
         ("Mean", Some(content)) => {

@@ -89,6 +89,8 @@ pub struct Reference {
     pub metric: Metric,
     /// Where it comes from.
     pub provenance: String,
+    /// Where the metric stands.
+    pub span: Span,
 }
 
 /// Something and where it stands.
@@ -162,16 +164,16 @@ impl Property {
             Property::UnitLength { within, .. } | Property::AtMost { within, .. } | Property::Mean { within, .. } => {
                 *within <= Metric::STRICT
             }
-            Property::Equal { by, .. } | Property::Sum { by, .. } | Property::CpuReference { by } => by.is_strict(),
-            Property::Finite | Property::NonNegative | Property::Range(..) | Property::AlphaOne | Property::Varies => {
-                true
-            }
+            _ => self.metric().is_none_or(|by| by.is_strict()),
         }
     }
 
-    /// It says what every number is, and so leaves no room for a mistake.
-    pub fn is_whole(&self) -> bool {
-        matches!(self, Property::Equal { .. } | Property::Sum { .. } | Property::CpuReference { .. })
+    /// The metric of one that says what every number is, and so leaves no room for a mistake.
+    pub fn metric(&self) -> Option<Metric> {
+        match self {
+            Property::Equal { by, .. } | Property::Sum { by, .. } | Property::CpuReference { by } => Some(*by),
+            _ => None,
+        }
     }
 
     /// The other ports that it names.
@@ -233,10 +235,17 @@ impl Change {
     /// So strict that nobody need say why; see [`Metric::is_strict`].
     pub fn is_strict(&self) -> bool {
         match self {
-            Change::Same(by) | Change::SumOfRuns(by) | Change::CpuReference(by) => by.is_strict(),
-            Change::Scaled(_, by) | Change::Shifted(_, _, by) => by.is_strict(),
             Change::NoMore(within) | Change::NoLess(within) => *within <= Metric::STRICT,
-            Change::Differs(_) => true,
+            _ => self.metric().is_none_or(|by| by.is_strict()),
+        }
+    }
+
+    /// The metric by which runs are compared.
+    pub fn metric(&self) -> Option<Metric> {
+        match *self {
+            Change::Same(by) | Change::SumOfRuns(by) | Change::CpuReference(by) => Some(by),
+            Change::Scaled(_, by) | Change::Shifted(_, _, by) => Some(by),
+            Change::NoMore(_) | Change::NoLess(_) | Change::Differs(_) => None,
         }
     }
 

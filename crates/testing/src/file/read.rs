@@ -168,6 +168,11 @@ fn tap(
         demand_reason(decoder, node, metric.is_strict(), reason);
         Some(Golden { metric, adapters, span: node.span })
     });
+    if let Some(node) = fields.get("adapters").filter(|_| fields.get("golden").is_none()) {
+        let message = "`adapters` says how far a port may be from its golden, and this tap has none";
+        let problem = Diagnostic::error(codes::WRONG_CHECK, decoder.place(node.span), message);
+        decoder.report(problem.suggest("give the tap a `golden`, or move `adapters` to the tap that has one"));
+    }
     let reference = fields.get("reference").and_then(|node| reference(decoder, folder, node, reason));
     let asked = fields.get("properties");
     let properties = asked.map(|node| properties(decoder, node, reason)).unwrap_or_default();
@@ -219,8 +224,9 @@ fn reference(decoder: &mut Decoder<'_>, folder: &Path, node: &Node, reason: bool
     let by = fields.required(decoder, "by").and_then(|node| {
         let metric = metric(decoder, node)?;
         demand_reason(decoder, node, metric.is_strict(), reason);
-        Some(metric)
+        Some((metric, node.span))
     });
     let provenance = fields.required(decoder, "provenance").and_then(|node| said(decoder, node, "provenance"));
-    Some(Reference { file: path?, metric: by?, provenance: provenance?.to_owned() })
+    let (metric, span) = by?;
+    Some(Reference { file: path?, metric, provenance: provenance?.to_owned(), span })
 }

@@ -3,17 +3,47 @@
 use std::fmt::Write as _;
 
 use tyndall_document::{Diagnostic, Diagnostics};
-use tyndall_graph::Graph;
+use tyndall_graph::{Graph, Plan};
 use tyndall_render::Loaded;
 use tyndall_scene::Scene;
 
-use super::{Relation, TestFile};
+use super::{Change, Relation, TestFile};
 use crate::codes;
 use crate::digest::Digest;
 
+/// What a relation asks of another run must be such as can be asked: the mistakes go to `out`.
+pub fn check_run(
+    file: &TestFile,
+    relation: &Relation,
+    own: (&Loaded, &Plan),
+    other: (&Loaded, &Plan),
+    out: &mut Diagnostics,
+) {
+    says_something(file, relation, own.0, other.0, out);
+    for expected in &relation.expect {
+        let place = file.place(expected.span);
+        let Ok(port) = own.0.graph.find(&expected.port, place.clone()) else { continue };
+        let (pass, name) = (other.0.graph.pass(port.pass), &expected.port);
+        if !pass.enabled {
+            let message = format!("a run switches pass `{}` off, and `{name}` with it", pass.name);
+            out.push(
+                Diagnostic::error(codes::TAP_OFF, place, message).suggest("ask it of a port that is still written"),
+            );
+            continue;
+        }
+        let size = |plan: &Plan| plan.planned(port).map(|port| *plan.resource(port));
+        // The reference on the CPU says what is right at any size.
+        if size(own.1) != size(other.1) && !matches!(expected.change, Change::CpuReference(_)) {
+            let message =
+                format!("`{name}` has another size or format in a run, and cannot be compared with the test's own");
+            out.push(Diagnostic::error(codes::WRONG_CHECK, place, message).suggest("ask for its CpuReference"));
+        }
+    }
+}
+
 /// A relation between a run and the same run once more holds whatever a pass does: then its settings say what is the case
-/// anyway, and the mistake goes to `out`.
-pub fn check_run(file: &TestFile, relation: &Relation, own: &Loaded, other: &Loaded, out: &mut Diagnostics) {
+/// anyway.
+fn says_something(file: &TestFile, relation: &Relation, own: &Loaded, other: &Loaded, out: &mut Diagnostics) {
     let vacuous = |expected: &&super::Expectation| expected.change.holds_of_the_same_run();
     let Some(expected) = relation.expect.iter().find(vacuous) else { return };
     if changes(&own.graph, &other.graph) || told(own.scene.as_ref()) != told(other.scene.as_ref()) {

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use half::f16;
 use tyndall_graph::descriptor::Class;
-use tyndall_image::{Image, Meaning, Precision, srgb_from_linear, write_exr};
+use tyndall_image::{Error, Image, Meaning, Precision, srgb_from_linear, write_exr};
 
 pub use record::{Record, Records};
 
@@ -39,6 +39,21 @@ pub enum Missing {
     /// The image cannot be read.
     #[error("{0}")]
     Unreadable(String),
+}
+
+/// Why something was not written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NotWritten {
+    /// The reason, with the path.
+    pub what: String,
+    /// The machine failed, a full disk say; else whoever asks for it has to change something.
+    pub is_of_machine: bool,
+}
+
+impl From<Error> for NotWritten {
+    fn from(error: Error) -> Self {
+        Self { what: error.to_string(), is_of_machine: error.exit_code() == 3 }
+    }
 }
 
 /// The name of the golden of a port: with the number of the frame where the test looks at several.
@@ -101,21 +116,22 @@ fn unfolded(mut image: Image, like: &Picture) -> Image {
 ///
 /// # Errors
 /// Where it is larger than a golden may be, or cannot be written.
-pub fn write(folder: &Path, key: &str, picture: &Picture) -> Result<PathBuf, String> {
+pub fn write(folder: &Path, key: &str, picture: &Picture) -> Result<PathBuf, NotWritten> {
     let Image { width, height, layers, .. } = picture.image;
     if !picture.fits_golden() {
-        return Err(format!(
+        let what = format!(
             "{width}x{height}x{layers} texels are too many for a golden: {MOST_SIDE}x{MOST_SIDE} in all layers at most"
-        ));
+        );
+        return Err(NotWritten { what, is_of_machine: false });
     }
     let path = folder.join(file_name(key, picture.class));
     let folded = Image { height: height * layers, layers: 1, ..picture.image.clone() };
-    let written = match picture.class {
+    match picture.class {
         Class::Display => tyndall_image::write(&path, &folded, Meaning::Display),
         Class::Color => write_exr(&path, &folded, Meaning::Color, precision(&folded)),
         _ => write_exr(&path, &folded, Meaning::Data, precision(&folded)),
-    };
-    written.map(|()| path).map_err(|error| error.to_string())
+    }?;
+    Ok(path)
 }
 
 fn precision(image: &Image) -> Precision {
@@ -147,6 +163,12 @@ pub fn orphans(folder: &Path, claimed: &BTreeSet<String>) -> Vec<PathBuf> {
         .collect();
     found.sort();
     found
+}
+
+/// A file that only blessing leaves behind: an image, or what was left of one when it was interrupted. Others are
+/// somebody's own.
+pub fn may_be_dropped(path: &Path) -> bool {
+    path.is_file() && path.extension().is_some_and(|suffix| ["exr", "png", "part"].iter().any(|known| suffix == *known))
 }
 
 /// The test file that a folder of goldens belongs to, if that is there.

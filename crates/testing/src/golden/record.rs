@@ -6,7 +6,7 @@ use std::path::Path;
 
 use tyndall_document::{Decoder, Diagnostics, Node, Source, parse};
 
-use super::RECORDS;
+use super::{NotWritten, RECORDS};
 use crate::adapter::AdapterClass;
 use crate::digest::Digest;
 use crate::fingerprint::Fingerprint;
@@ -44,8 +44,9 @@ impl Record {
     ///
     /// # Errors
     /// Where it cannot be read.
-    pub fn new(path: &Path, adapter: AdapterClass, made_from: Option<Fingerprint>) -> Result<Self, String> {
-        let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    pub fn new(path: &Path, adapter: AdapterClass, made_from: Option<Fingerprint>) -> Result<Self, NotWritten> {
+        let bytes = std::fs::read(path)
+            .map_err(|error| NotWritten { what: format!("{}: {error}", path.display()), is_of_machine: true })?;
         Ok(Self { content: content_hash(&bytes), adapter, program: env!("CARGO_PKG_VERSION").to_owned(), made_from })
     }
 
@@ -113,7 +114,7 @@ impl Records {
     ///
     /// # Errors
     /// Where the file cannot be written.
-    pub fn write(&self, folder: &Path) -> Result<(), String> {
+    pub fn write(&self, folder: &Path) -> Result<(), NotWritten> {
         let mut text = "// What each golden was made from. Written by `tyndall test --bless`.\n{\n".to_owned();
         for (key, record) in &self.0 {
             let Record { content, adapter, program, made_from } = record;
@@ -125,7 +126,7 @@ impl Records {
             text += "),\n";
         }
         text += "}\n";
-        tyndall_image::write_bytes(&folder.join(RECORDS), text.as_bytes()).map_err(|error| error.to_string())
+        Ok(tyndall_image::write_bytes(&folder.join(RECORDS), text.as_bytes())?)
     }
 }
 

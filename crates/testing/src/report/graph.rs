@@ -54,7 +54,7 @@ fn rooms(count: usize) -> Rooms {
 /// The place of each card, each column in the middle; and the size of the drawing.
 fn places(passes: &[PassOutcome], counts: &[usize]) -> (Vec<Place>, usize, usize) {
     let columns = columns(passes);
-    let mut bottoms = vec![0; columns.iter().max().map_or(0, |most| most + 1)];
+    let mut bottoms = vec![0; columns.iter().max().map_or(0, |most| most + 1)]; // none where no pass was planned
     let mut places: Vec<Place> = Vec::with_capacity(passes.len());
     for (column, count) in columns.iter().zip(counts) {
         let rooms = rooms(*count);
@@ -66,7 +66,7 @@ fn places(passes: &[PassOutcome], counts: &[usize]) -> (Vec<Place>, usize, usize
     for ((_, top, _), column) in places.iter_mut().zip(&columns) {
         *top += (tallest - bottoms[*column]) / 2;
     }
-    (places, bottoms.len() * (CARD + GAP) - GAP, tallest)
+    (places, (bottoms.len() * (CARD + GAP)).saturating_sub(GAP), tallest)
 }
 
 /// How many passes lie before each, along the longest way.

@@ -5,7 +5,8 @@ use std::path::Path;
 use tyndall_graph::descriptor::Class;
 use tyndall_image::{Error, Image, Meaning, NewFolder, encode_png, srgb_from_linear};
 
-use crate::metric::{Compared, Metric};
+use crate::flip;
+use crate::metric::{ALPHA_TOLERANCE, Compared, Metric};
 use crate::outcome::{PortOutcome, Untapped};
 use crate::picture::Picture;
 
@@ -85,7 +86,7 @@ impl Folder<'_> {
         metric: Metric,
         exposure: &Exposure,
     ) -> Result<Against, Error> {
-        let excess = excess(actual, expected, metric.scale(expected));
+        let excess = of_metric(actual, expected, metric);
         let (width, height) = flat(&actual.image);
         let largest = excess.iter().copied().filter(|excess| excess.is_finite()).fold(10.0, f64::max);
         let image = |colour: &dyn Fn(f64) -> [f32; 3]| {
@@ -150,6 +151,22 @@ impl Exposure {
         let data = compared.data.chunks_exact(channels).flat_map(|numbers| nan_is_seen(texel(numbers))).collect();
         Image::new(width, height, 3, data)
     }
+}
+
+/// How far each pixel is beyond what a metric allows, over the tolerance.
+fn of_metric(actual: &Picture, expected: &Picture, metric: Metric) -> Vec<f64> {
+    let seen = matches!(metric, Metric::Flip { .. }).then(|| flip::map(actual, expected));
+    let scale = metric.scale(expected);
+    let mut excess = match seen {
+        Some(Ok(seen)) => seen.into_iter().map(|seen| seen / scale).collect(),
+        _ => excess(actual, expected, scale),
+    };
+    if let (Some(alpha), Some(wanted)) = (actual.alpha(), expected.alpha()) {
+        for (excess, (alpha, wanted)) in excess.iter_mut().zip(alpha.data.iter().zip(&wanted.data)) {
+            *excess = excess.max(f64::from((alpha - wanted).abs()) / ALPHA_TOLERANCE);
+        }
+    }
+    excess
 }
 
 /// The largest difference of each pixel, over the tolerance.
@@ -218,6 +235,17 @@ mod tests {
         let found = excess(&picture(0.5), &picture(0.25), 0.125);
         assert!(found.len() == 16 && found.iter().all(|excess| (excess - 2.0).abs() < 1e-9));
         assert!(excess(&picture(f32::NAN), &picture(0.25), 0.1).iter().all(|excess| excess.is_infinite()));
+    }
+
+    #[test]
+    fn alpha_counts_and_flip_sees_what_a_person_sees() {
+        let of_alpha = |alpha| Picture::new(Image::filled(4, 4, &[0.5, 0.5, 0.25, alpha]), Class::Color);
+        let light = Metric::RelativeRmse { tolerance: 0.01 };
+        assert!(of_metric(&of_alpha(0.5), &of_alpha(1.0), light).iter().all(|excess| *excess > 4.0));
+        let grey = |code: f32| Picture::new(Image::filled(16, 16, &[code / 255.0; 3]), Class::Display);
+        let seen = Metric::Flip { mean: 0.005, p99: Some(0.05) };
+        assert!(of_metric(&grey(129.0), &grey(128.0), seen).iter().all(|excess| *excess < 1.0));
+        assert!(of_metric(&grey(255.0), &grey(0.0), seen).iter().all(|excess| *excess > 4.0));
     }
 
     #[test]

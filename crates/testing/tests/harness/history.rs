@@ -143,3 +143,29 @@ fn the_last_frame_alone_names_its_own_pass() {
     assert_eq!(states(&outcome, "mix"), [Passed, Passed, Passed, Guilty], "{}", outcome.text());
     assert_eq!(states(&outcome, "grade"), [Passed, Passed, Passed, Inherited]);
 }
+
+/// Two graphs that differ in nothing but whether a parameter is the number of the frame or its time share no result.
+#[test]
+fn a_frame_and_its_time_are_told_apart() {
+    let trail = Trail::new();
+    let graph = |name: &str| {
+        GRAPH.replace("\"before\": \"grade.result\"", "\"before\": \"source.result\"").replace("$frame", name)
+    };
+    for name in ["frame", "time"] {
+        trail.put(&format!("{name}.graph.ron"), &graph(&format!("${name}")));
+        let test = format!(
+            "(version: 1, graph: \"{name}.graph.ron\", size: (12, 8), frames: [12], taps: {{ \"source.*\": (golden: Exact) }})"
+        );
+        trail.put(&format!("{name}.test.ron"), &test);
+    }
+    let search = vec![SearchPath { path: trail.folder.path().join("plugins"), required: true }];
+    let mut session = Session::new(vec![tyndall_core::plugin], search, None).unwrap();
+    let mut run = |name: &str, bless| {
+        let path = trail.folder.path().join(format!("{name}.test.ron"));
+        assert!(session.run(&path, &Options { bless, ..Options::default() }).passed());
+        std::fs::read(trail.folder.path().join(format!("{name}.goldens/source.result.exr"))).unwrap()
+    };
+    let [frame, time] = ["frame", "time"].map(|name| run(name, true));
+    assert!(frame != time, "frame 12 is half a second");
+    assert_eq!(["frame", "time"].map(|name| run(name, false)), [frame, time]);
+}
