@@ -337,11 +337,13 @@ fn chunk_of_spot(spot: SpotBesideRay, exponent: f32, rho: f32, depth_of_v: f32, 
     let lit = select(spot.second, spot.first, in_first);
     let low = max(max(lit.x, whole.start), from_v);
     let high = max(min(lit.y, whole_end), low);
-    // v where theta is `turn` more than at low; tan(x) is nearly x/(1 - 0.4 x^2), and beyond half a turn there is no end
+    // v where theta is `turn` more than at low; tan(x) is nearly x/(1 - 0.4 x^2), and beyond half a turn there is no end.
+    // An exponent of 0 is not looked at
     let shorter = select(1.0, CHUNK_OF_TABLE, phase_table_count != 0u);
-    let turn = shorter * CHUNK_TURN * inverseSqrt(max(exponent, 0.1));
-    let tangent = 0.5 * turn / max(1.0 - 0.1 * turn * turn, 0.01);
-    let turned = select((low + tangent) / (1.0 - low * tangent), V_MAX, low * tangent >= 1.0);
+    let turn = shorter * CHUNK_TURN * inverseSqrt(exponent);
+    let rise = 0.5 * turn;
+    let run = 1.0 - 0.1 * turn * turn;
+    let turned = select((low * run + rise) / (run - low * rise), V_MAX, low * rise >= run);
     let falling = select(V_MAX, min(turned, CHUNK_RATIO * max(low, rho)), exponent > 0.0);
     let end = min(high, min(falling, low + shorter * CHUNK_DEPTH / depth_of_v));
     let uncut = low == whole.start && end == whole_end;

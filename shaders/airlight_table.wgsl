@@ -63,10 +63,11 @@ const TAU_ENDLESS: f32 = 1e30;
 // `width` is that of the narrowest lobe of f.
 fn tau_nodes(start: f32, length: f32, rate: f32, width: f32) -> TauNodes {
     // behind twice 17/rate, or far beyond 1, nothing is left; a cut there goes through the middle, s = 0
-    let end = min(2.0 * max(1.0, start) / TAU_LEFT_OUT, 34.0 / max(rate, 1e-30));
+    let fading = 1.0 / max(rate, 1e-30);
+    let end = min(2.0 * max(1.0, start) / TAU_LEFT_OUT, 34.0 * fading);
     let reach = min(length, end);
     let high = select(14.0, 0.0, end < length);
-    let scale = min(min(max(start, width), 1.0), min(1.0 / max(rate, 1e-30), reach));
+    let scale = min(min(max(start, width), 1.0), min(fading, reach));
     let low = log(TAU_LEFT_OUT * scale / reach);
     return TauNodes(start, rate, reach, low, (high - low) / f32(TAU_NODES));
 }
@@ -98,8 +99,8 @@ fn nodes_of_texel(texel: vec2<u32>, size: vec2<u32>, width: f32) -> TauNodes {
 // A table at a place, 0 to 1 from its first to its last texels, clamped, bilinear. By hand: not every device filters f32.
 fn bilinear(table: texture_2d<f32>, place: vec2<f32>) -> vec4<f32> {
     let last = vec2<f32>(textureDimensions(table)) - 1.0;
-    let at = clamp(place, vec2<f32>(0.0), vec2<f32>(1.0)) * last;
-    let low = floor(min(at, max(last - 1.0, vec2<f32>(0.0))));
+    let at = saturate(place) * last;
+    let low = floor(at);
     let part = at - low;
     let a = vec2<u32>(low);
     let b = vec2<u32>(min(low + 1.0, last));

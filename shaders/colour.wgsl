@@ -2,7 +2,7 @@
 
 // sRGB, 0..1, of linear light; what is outside 0..1 is clamped first, and what is no number becomes 0.
 fn srgb_from_linear(linear: vec3<f32>) -> vec3<f32> {
-    let value = clamp(linear, vec3<f32>(0.0), vec3<f32>(1.0));
+    let value = saturate(linear);
     let curve = 1.055 * pow(value, vec3<f32>(1.0 / 2.4)) - 0.055;
     return select(curve, 12.92 * value, value <= vec3<f32>(0.0031308));
 }

@@ -48,8 +48,9 @@ fn spot_beside_ray(light: Light, direction: vec3<f32>, from_light: vec3<f32>, v0
     let v = clamp(peak, v0, v1);
     let q = 1.0 / (1.0 + v * v);
     let highest = max(along * (1.0 - 2.0 * q) + 2.0 * across * v * q, 0.0);
-    let bits = FALLOFF_BITS + min(1.4427 * depth_of_v * (v - v0), 1000.0);
-    let lowest = highest * exp2(-bits / max(light.exponent, 0.01));
+    let bits = FALLOFF_BITS + 1.4427 * depth_of_v * (v - v0);
+    // an exponent of 0 is not looked at
+    let lowest = highest * exp2(-bits / light.exponent);
     // a ray that meets the light has no foot beside it: what is not along it counts as tilt
     let meets = dot(from_light, from_light) < 0.5;
     let tilt = select(dot(light.direction, cross(direction, from_light)), sqrt(max(1.0 - along * along, 0.0)), meets);

@@ -37,17 +37,15 @@ fn fan_of(light: Light, start: vec3<f32>, end: vec3<f32>) -> Fan {
     let sun_way = -SUN_WAY * light.direction;
     let to_light = select(light.position - start, sun_way, is_sun);
     let from_end = select(light.position - end, sun_way, is_sun);
-    let low = min(min(start, end), min(start + to_light, end + from_end));
-    let high = max(max(start, end), max(start + to_light, end + from_end));
-    let normal = normalize_or_zero(cross(end - start, to_light));
-    let before = normalize_or_zero(cross(normal, to_light));
-    let behind = normalize_or_zero(cross(normal, from_end));
-    return Fan(start, low, high, normal, select(before, -before, dot(before, end - start) > 0.0), end,
-        select(behind, -behind, dot(behind, start - end) > 0.0));
-}
-
-fn normalize_or_zero(v: vec3<f32>) -> vec3<f32> {
-    return v * inverseSqrt(max(dot(v, v), 1e-30));
+    let nearer = min(start, end);
+    let farther = max(start, end);
+    let low = min(nearer, select(light.position, nearer + sun_way, is_sun));
+    let high = max(farther, select(light.position, farther + sun_way, is_sun));
+    let normal = cross(end - start, to_light);
+    // outward, as (e x l) x l has no part along e that is above 0
+    let before = cross(normal, to_light);
+    let behind = cross(from_end, normal);
+    return Fan(start, low, high, normal, before, end, behind);
 }
 
 // Whether all of a box is on the outer side of a plane through a point.
@@ -67,10 +65,10 @@ fn meets(node: OccluderNode, fan: Fan) -> bool {
 
 // The interval of a ray that is left of x to y where height + rise x >= 0, m.
 fn clipped(interval: vec2<f32>, height: f32, rise: f32) -> vec2<f32> {
-    let at = -height / select(rise, 1e-30, rise == 0.0);
-    let low = select(interval.x, max(interval.x, at), rise > 0.0);
-    let high = select(interval.y, min(interval.y, at), rise < 0.0);
-    return select(vec2<f32>(low, high), vec2<f32>(1.0, 0.0), rise == 0.0 && height < 0.0);
+    // along a plane, all or nothing: the plane is met far behind the ray's start or far before it
+    let steepness = select(rise, 1e-30, rise == 0.0);
+    let at = -height / steepness;
+    return vec2<f32>(select(interval.x, max(interval.x, at), steepness > 0.0), select(interval.y, min(interval.y, at), steepness < 0.0));
 }
 
 // The interval of a ray in the shadow of a triangle, empty where x > y.
@@ -120,7 +118,8 @@ fn points_of_leaf(node: OccluderNode, number: u32, triangles: u32, light: Light,
 
 // Of 32 points of a ray from x metres in steps of dx those that a light does not reach, the first in the lowest bit.
 fn hidden_points(light: Light, ray: Ray, x: f32, dx: f32) -> u32 {
-    let fan = fan_of(light, ray.origin + x * ray.direction, ray.origin + (x + 31.0 * dx) * ray.direction);
+    let start = ray.origin + x * ray.direction;
+    let fan = fan_of(light, start, start + 31.0 * dx * ray.direction);
     let count = occluder_nodes.count;
     var at = 0u;
     var hidden = 0u;

@@ -40,9 +40,9 @@ struct TablePlace {
 // At a share of the table, 0..1.
 fn table_place(share: f32) -> TablePlace {
     let last = max(phase_table_count, 2u) - 1u;
-    let place = clamp(share, 0.0, 1.0) * f32(last);
-    let index = min(u32(place), last - 1u);
-    return TablePlace(phase_table.items[index], phase_table.items[index + 1u], place - f32(index));
+    let place = saturate(share) * f32(last);
+    let index = u32(place);
+    return TablePlace(phase_table.items[index], phase_table.items[min(index + 1u, last)], place - f32(index));
 }
 
 // The measured function, 1/sr, at xi.
@@ -84,7 +84,8 @@ fn v_of_rest(rest: f32) -> f32 {
     let share = pow(max(rest / phase_table.total, 1e-30), 1.0 / 3.0);
     let place = table_place(share);
     let xi = mix(place.before.z, place.after.z, place.along);
-    let ratio = xi / max(1.0 - xi, 1e-6);
+    // a little more than 1, as xi may be 1
+    let ratio = xi / (1.000001 - xi);
     return ratio * ratio;
 }
 

@@ -44,11 +44,11 @@ fn map_direction(tiles: Tiles, texel: vec2<u32>, layer: u32) -> vec3<f32> {
 }
 
 // Whether a point is behind what the map says. A directional light has no place, and so no map: it reaches all. Nor is
-// anything hidden where no map is fed: that has one layer.
+// anything hidden where no map is fed: that has one layer, and what is read beyond it is not looked at.
 fn is_hidden_in_map(shadow_map: texture_2d_array<f32>, tiles: Tiles, light: Light, index: u32, point: vec3<f32>) -> bool {
     let away = point - light.position;
     let texel = map_texel(tiles, index, away);
     let is_mapped = light.kind != DIRECTIONAL && textureNumLayers(shadow_map) == 6u;
-    let nearest = textureLoad(shadow_map, texel.xy, select(0u, texel.z, is_mapped), 0).x;
+    let nearest = textureLoad(shadow_map, texel.xy, texel.z, 0).x;
     return is_mapped && dot(away, away) > nearest * nearest;
 }

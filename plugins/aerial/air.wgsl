@@ -71,10 +71,11 @@ const SUN_RADIUS_DEGREES: f32 = 0.267;
 // above the horizon shines.
 fn sunlight(air: Air, light: Light) -> vec3<f32> {
     let to_sun = -light.direction;
-    let x = clamp(elevation_degrees(to_sun) / SUN_RADIUS_DEGREES, -1.0, 1.0);
-    let half_chord = sqrt(1.0 - x * x);
+    let x = elevation_degrees(to_sun) / SUN_RADIUS_DEGREES;
+    // no chord, and all of the disc or nothing, where the horizon does not cross it
+    let half_chord = sqrt(max(1.0 - x * x, 0.0));
     let above = 0.5 + (atan2(x, half_chord) + x * half_chord) / 3.14159265358979;
-    let left = clamp(above, 0.0, 1.0) * exp(-air_mass(to_sun) * air.zenith_depth);
+    let left = saturate(above) * exp(-air_mass(to_sun) * air.zenith_depth);
     return select(vec3<f32>(1.0), left, air.from_space != 0u);
 }
 
