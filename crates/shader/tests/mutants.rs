@@ -108,3 +108,18 @@ fn alike_changes_are_numbered() {
     let count = |change: &str| all.iter().filter(|(_, _, c)| c == change).count();
     assert_eq!((count("a + 0.25 -> a - 0.25"), count("a + 0.25 -> a - 0.25 #2")), (1, 1), "{all:#?}");
 }
+
+/// By how much threads count that a driver has left undone: no port shows it.
+#[test]
+fn what_is_unfinished_is_counted_as_it_is() {
+    let all = changes(
+        "var<storage, read_write> unfinished: atomic<u32>;
+var result: texture_storage_2d<rgba32float, write>;
+@compute @workgroup_size(1) fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    atomicAdd(&unfinished, 3u);
+    textureStore(result, id.xy, vec4<f32>(f32(id.x) + 0.25));
+}
+",
+    );
+    assert!(!all.is_empty() && all.iter().all(|(_, _, change)| !change.starts_with("3u")), "{all:#?}");
+}

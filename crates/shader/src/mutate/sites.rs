@@ -11,6 +11,7 @@ use naga::{
 use super::wording::Wording;
 use super::{Edit, Location, Mutation, MutationKind, Target};
 use crate::link::Linked;
+use crate::naming::UNFINISHED;
 
 /// All mutations of the functions that entry points reach.
 pub(super) fn mutations(linked: &Linked) -> Vec<Mutation> {
@@ -93,8 +94,8 @@ impl Sites<'_> {
         });
     }
 
-    /// Expressions in which no mistake matters: mip levels, channels that a texture does not store, and what counts the
-    /// turns of a loop, where a mistake only takes time.
+    /// Expressions in which no mistake matters: mip levels, channels that a texture does not store, what counts the
+    /// turns of a loop, where a mistake only takes time, and by how much threads count that were left unfinished.
     fn idle(&self) -> HashSet<Handle<Expression>> {
         let mut idle = HashSet::new();
         for (_, expression) in self.function.expressions.iter() {
@@ -110,6 +111,9 @@ impl Sites<'_> {
                 {
                     idle.extend(components.iter().skip(stored));
                 }
+            }
+            Statement::Atomic { pointer, value, .. } if self.is_unfinished(*pointer) => {
+                idle.insert(*value);
             }
             Statement::Store { pointer, value } if self.counts(*pointer, *value) => {
                 idle.insert(*value);
@@ -132,6 +136,12 @@ impl Sites<'_> {
             },
             _ => None,
         }
+    }
+
+    /// The count of threads that did not get to the end, which is no port.
+    fn is_unfinished(&self, pointer: Handle<Expression>) -> bool {
+        let Expression::GlobalVariable(global) = self.function.expressions[pointer] else { return false };
+        self.linked.module.global_variables[global].name.as_deref() == Some(UNFINISHED)
     }
 
     /// `i += 1` of a whole number.
