@@ -2,6 +2,7 @@
 // triangles that cast shadows.
 #import scene
 #import shadow_map
+#import unfinished
 
 struct Params {
     size: u32,
@@ -17,6 +18,9 @@ var distances: texture_storage_2d_array<r32float, write>;
 const NOTHING: f32 = 3e38;
 // Boxes are larger by this part, so that rounding errors lose none.
 const BOX_SLACK: f32 = 1e-5;
+
+// Whether a walk ended before it was done.
+var<private> missed: bool = false;
 
 // Whether a ray meets a box nearer than `nearest`.
 fn meets(node: OccluderNode, origin: vec3<f32>, inverse: vec3<f32>, nearest: f32) -> bool {
@@ -69,6 +73,7 @@ fn nearest_along(origin: vec3<f32>, direction: vec3<f32>) -> f32 {
         }
         if at >= count { break; }
     }
+    missed = at < count;
     return nearest;
 }
 
@@ -85,5 +90,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if all(id.xy < size) {
         let seen = select(NOTHING, nearest, is_mapped && light.kind != DIRECTIONAL);
         textureStore(distances, id.xy, id.z, vec4<f32>(seen, 0.0, 0.0, 1.0));
+        if missed && is_mapped {
+            tell_unfinished();
+        }
     }
 }
