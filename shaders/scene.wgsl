@@ -230,13 +230,13 @@ struct ShadowLight {
     across: vec3<f32>,          // unit vector, world: x
     nearness: f32,              // kappa, 1/m
     upward: vec3<f32>,          // unit vector, world: y
-    depth_at_eye: i32,          // triangles between the light and the eye
+    depth_at_eye: i32,          // triangles between the light and the eye, without those that touch it
     axis: vec3<f32>,            // unit vector, world: z
-    first_slice: u32,           // among the slices
-    slices: u32,                // number; 0 where nothing has an edge
-    pad0: u32,
-    pad1: u32,
-    pad2: u32,
+    first_bin: u32,             // among the slices
+    bins: u32,                  // equal parts of the turn about the axis; 0 where there is no light
+    first_touching: u32,        // among the edges: those of the triangles that touch the eye, but for those that pass through it
+    touching: u32,              // number
+    pad: u32,
 }
 
 // One for each light of the scene.
@@ -248,7 +248,8 @@ struct ShadowLights {
     items: array<ShadowLight>,
 }
 
-// Where the crossings of a slice begin; those of a light's last slice end where one more says.
+// For each light, for each of its bins where its slices stand in this list, and one more for the end of the last; and for
+// each slice where its crossings begin, and one more for the end of the last. Slices are equal parts of a bin.
 struct ShadowSlices {
     count: u32,
     pad0: u32,
@@ -271,12 +272,12 @@ struct ShadowCrossings {
     items: array<ShadowCrossing>,
 }
 
-// Of a silhouette; it runs counter-clockwise about the axis.
+// Of a silhouette, or of a triangle that touches the eye; it runs counter-clockwise about the axis.
 struct ShadowEdge {
     a: vec3<f32>,               // m, frame of the light
     step: i32,                  // triangles beyond it less those before it, as the light sees it
     b: vec3<f32>,
-    pad: u32,
+    away: f32,                  // z where the axis meets the plane of a triangle that touches the eye, m; below 0 if the eye is behind
 }
 
 struct ShadowEdges {

@@ -31,22 +31,37 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var found = LitPart(vec2<f32>(0.0), start_of_walk(shadow_lights.items[0], shadow), false);
     var cursor = Cursor(0u, 0u, 0.0);
     var whole = true;
+    // the sum before the light; and with it as if it had no shadow, once its lit parts are summed
+    var before = vec3<f32>(0.0);
+    var unshadowed = vec3<f32>(0.0);
+    var bounds = false;
+    var partly = false;
     loop {
-        if whole {
+        if whole && !bounds {
             found = next_lit_part(shadow, found.walk);
         }
-        let piece = airlight_of_part(cursor, lights.items[light], medium, phase, ray, found.part, shadow.way, nodes);
-        sum += piece.radiance;
+        let part = select(found.part, vec2<f32>(0.0, shadow.way), bounds);
+        let piece = airlight_of_part(cursor, lights.items[light], medium, phase, ray, part, shadow.way, nodes);
+        sum += select(piece.radiance, vec3<f32>(0.0), bounds);
+        unshadowed += select(vec3<f32>(0.0), piece.radiance, bounds);
         cursor = piece.next;
         whole = cursor.light > light;
+        partly = partly || (part.x < part.y && (part.x > 0.0 || part.y < shadow.way));
         if whole {
             let at_end = found.walk.x >= shadow.way;
-            if at_end && found.walk.depth <= 0 {
+            if at_end && found.walk.depth <= 0 && !bounds {
                 lit_bits += bit_of_light(light);
             }
-            light += select(0u, 1u, at_end);
+            // nodes err: the sum over parts may come to more than that over the ray
+            sum = select(sum, min(sum, unshadowed), bounds);
+            bounds = at_end && partly && !bounds;
+            let done = at_end && !bounds;
+            light += select(0u, 1u, done);
             cursor = Cursor(light, 0u, 0.0);
-            if at_end {
+            before = select(before, sum, done);
+            unshadowed = before;
+            partly = partly && !done;
+            if done {
                 shadow = shadow_ray(shadow_lights.items[light], ray, way);
                 found.walk = start_of_walk(shadow_lights.items[light], shadow);
             }
