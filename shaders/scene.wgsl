@@ -234,9 +234,9 @@ struct ShadowLight {
     axis: vec3<f32>,            // unit vector, world: z
     first_bin: u32,             // among the slices
     bins: u32,                  // equal parts of the turn about the axis; 0 where there is no light
-    first_touching: u32,        // among the edges: those of the triangles that touch the eye, but for those that pass through it
-    touching: u32,              // number
-    pad: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
 }
 
 // One for each light of the scene.
@@ -248,8 +248,8 @@ struct ShadowLights {
     items: array<ShadowLight>,
 }
 
-// For each light, for each of its bins where its slices stand in this list, and one more for the end of the last; and for
-// each slice where its crossings begin, and one more for the end of the last. Slices are equal parts of a bin.
+// For each light: for each of its bins the number of its first slice, times 2^16, and how many slices it has, which are
+// equal parts of it; then for each slice where its crossings begin, and one more for the end of the last.
 struct ShadowSlices {
     count: u32,
     pad0: u32,
@@ -275,9 +275,9 @@ struct ShadowCrossings {
 // Of a silhouette, or of a triangle that touches the eye; it runs counter-clockwise about the axis.
 struct ShadowEdge {
     a: vec3<f32>,               // m, frame of the light
-    step: i32,                  // triangles beyond it less those before it, as the light sees it
+    step: i32,                  // triangles beyond it less those before it, as the light sees it; at the eye the other way round
     b: vec3<f32>,
-    away: f32,                  // z where the axis meets the plane of a triangle that touches the eye, m; below 0 if the eye is behind
+    away: f32,                  // of a triangle that touches the eye: z where the axis meets its plane, m, below 0 if the eye is behind; else 0
 }
 
 struct ShadowEdges {

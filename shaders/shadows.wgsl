@@ -32,6 +32,9 @@ var<storage, read> shadow_edges: ShadowEdges;
 // More than any distance, m, whose products stay finite.
 const BEYOND: f32 = 1e18;
 
+// n/r of edges of which no more is known.
+const ANYWHERE: f32 = 3e38;
+
 // A ray in the frame of a light.
 struct ShadowRay {
     toward: vec2<f32>,          // unit vector: the way of the ray across the axis
@@ -56,22 +59,23 @@ fn shadow_ray(light: ShadowLight, ray: Ray, way: f32) -> ShadowRay {
     let toward = select(vec2<f32>(1.0, 0.0), across / sine, sine > 1e-12);
     let place = angle_of(toward) * 0.25 * f32(light.bins);
     let bin = min(u32(place), max(light.bins, 1u) - 1u);
-    let first_slice = shadow_slices.items[light.first_bin + bin];
-    let slices = shadow_slices.items[light.first_bin + bin + 1u] - first_slice;
-    let slice = first_slice + min(u32((place - f32(bin)) * f32(slices)), max(slices, 1u) - 1u);
+    let slices = shadow_slices.items[light.first_bin + bin];
+    let count = slices & 0xffffu;
+    let within = min(u32((place - f32(bin)) * f32(count)), max(count, 1u) - 1u);
+    let slice = light.first_bin + light.bins + (slices >> 16u) + within;
     let first = shadow_slices.items[slice];
     let end = select(first, shadow_slices.items[slice + 1u], light.bins > 0u);
     return ShadowRay(toward, sine, dot(ray.direction, light.axis), light.nearness, min(way, BEYOND), first, end);
 }
 
-// Where the ray's half-plane meets an edge.
-struct Meeting {
-    r: f32,                     // m
-    from_ray: f32,              // T; 0 where it does not meet it
-    step: i32,                  // by how much the depth grows behind it, outward from the axis
+// Where the ray passes behind an edge, m, and by how much the depth grows there; BEYOND and 0 where it does not. What
+// touches the eye hides the light from there on.
+struct Crossing {
+    x: f32,
+    step: i32,
 }
 
-fn meeting_of(edge: ShadowEdge, ray: ShadowRay) -> Meeting {
+fn crossing_of(edge: ShadowEdge, ray: ShadowRay) -> Crossing {
     let side_a = ray.toward.x * edge.a.y - ray.toward.y * edge.a.x;
     let side_b = ray.toward.x * edge.b.y - ray.toward.y * edge.b.x;
     let r_a = dot(ray.toward, edge.a.xy);
@@ -82,47 +86,25 @@ fn meeting_of(edge: ShadowEdge, ray: ShadowRay) -> Meeting {
     let inverse = 1.0 / select(1.0, side_b - side_a, crossed);
     let r = max((side_b * r_a - side_a * r_b) * inverse, 0.0);
     let z = (side_b * edge.a.z - side_a * edge.b.z) * inverse;
-    return Meeting(r, select(0.0, ray.sine * z - ray.cosine * r, crossed && ahead), select(-edge.step, edge.step, forward));
+    let from_ray = ray.sine * z - ray.cosine * r;
+    let v = ray.sine + ray.nearness * from_ray;
+    let at_eye = edge.away != 0.0;
+    let hides = select(from_ray < 0.0 && v > 0.0, is_hidden_at_eye(edge, ray, r, from_ray), at_eye);
+    let behind = crossed && ahead && hides;
+    let x = select(r / max(v, 1e-30), 0.0, at_eye);
+    return Crossing(select(BEYOND, x, behind), select(0, select(-edge.step, edge.step, forward), behind));
 }
 
-// Where the ray passes behind an edge, m, and by how much the depth grows there; BEYOND and 0 where it does not.
-struct Crossing {
-    x: f32,
-    step: i32,
+// Whether the triangle of an edge touches the eye and hides the light from the ray's first metre on. An eye behind it is in
+// its shadow whatever the ray; else a ray that passes behind it is, unless it meets the triangle after all and ends there.
+fn is_hidden_at_eye(edge: ShadowEdge, ray: ShadowRay, r: f32, from_ray: f32) -> bool {
+    let met = edge.away * r / max(ray.sine * edge.away - from_ray, 1e-30);
+    return edge.away < 0.0 || (from_ray < 0.0 && ray.way > 2.0 * met);
 }
 
-fn crossing_of(edge: ShadowEdge, ray: ShadowRay) -> Crossing {
-    let met = meeting_of(edge, ray);
-    let v = ray.sine + ray.nearness * met.from_ray;
-    let behind = met.from_ray < 0.0 && v > 0.0;
-    return Crossing(select(BEYOND, met.r / max(v, 1e-30), behind), select(0, met.step, behind));
-}
-
-// What a triangle that touches the eye, by one of its edges, hides of the light from the start of a ray on: minus the step,
-// as the edge is where its shadow ends. An eye behind it is in its shadow whatever the ray; else a ray that passes behind it
-// is, unless it meets the triangle after all and ends there.
-fn hidden_at_eye(edge: ShadowEdge, ray: ShadowRay) -> i32 {
-    let met = meeting_of(edge, ray);
-    let x = edge.away * met.r / max(ray.sine * edge.away - met.from_ray, 1e-30);
-    let enters = met.from_ray < 0.0 && ray.way > 2.0 * x;
-    return select(0, -met.step, met.from_ray != 0.0 && (enters || edge.away < 0.0));
-}
-
-fn depth_at_start(light: ShadowLight, ray: ShadowRay) -> i32 {
-    var depth = light.depth_at_eye;
-    var i = 0u;
-    loop {
-        let hidden = hidden_at_eye(shadow_edges.items[light.first_touching + min(i, max(light.touching, 1u) - 1u)], ray);
-        depth += select(0, hidden, i < light.touching);
-        i++;
-        if i >= light.touching { break; }
-    }
-    return depth;
-}
-
-// Whether all that has n/r = `ratio` or less is crossed at x or farther.
+// Whether all that has n/r = `ratio` or less is crossed at x or farther. Of what may be anywhere the ratio says nothing.
 fn is_beyond(ratio: f32, ray: ShadowRay, x: f32) -> bool {
-    return x * (ray.sine * ratio - ray.cosine * ray.nearness) <= 1.0;
+    return ratio < ANYWHERE && x * (ray.sine * ratio - ray.cosine * ray.nearness) <= 1.0;
 }
 
 // Crossings ahead, in order, each with its number; BEYOND where there is none.
@@ -172,7 +154,7 @@ struct ShadowWalk {
 const NOTHING_LOST: f32 = 2e18;
 
 fn start_of_walk(light: ShadowLight, ray: ShadowRay) -> ShadowWalk {
-    return ShadowWalk(-1.0, depth_at_start(light, ray), ray.first, no_crossings(), NOTHING_LOST, ray.end, -1.0);
+    return ShadowWalk(-1.0, light.depth_at_eye, ray.first, no_crossings(), NOTHING_LOST, ray.end, -1.0);
 }
 
 // A crossing is looked at: from now on it is ahead, or lost.

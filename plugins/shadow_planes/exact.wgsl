@@ -6,6 +6,7 @@
 #import shadows
 #import unfinished
 #import "few_nodes.wgsl"
+#import "bound.wgsl"
 
 override nodes: u32 = 12;
 
@@ -31,37 +32,30 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var found = LitPart(vec2<f32>(0.0), start_of_walk(shadow_lights.items[0], shadow), false);
     var cursor = Cursor(0u, 0u, 0.0);
     var whole = true;
-    // the sum before the light; and with it as if it had no shadow, once its lit parts are summed
-    var before = vec3<f32>(0.0);
-    var unshadowed = vec3<f32>(0.0);
-    var bounds = false;
-    var partly = false;
+    var bound = unbounded(sum);
     loop {
-        if whole && !bounds {
+        if whole && bound.stage == LIT {
             found = next_lit_part(shadow, found.walk);
+            bound = with_dark_before(bound, found.part);
         }
-        let part = select(found.part, vec2<f32>(0.0, shadow.way), bounds);
-        let piece = airlight_of_part(cursor, lights.items[light], medium, phase, ray, part, shadow.way, nodes);
-        sum += select(piece.radiance, vec3<f32>(0.0), bounds);
-        unshadowed += select(vec3<f32>(0.0), piece.radiance, bounds);
+        let part = part_of_stage(bound, found.part, shadow.way);
+        let piece = airlight_of_part(cursor, lights.items[light], medium, phase, ray, part, shadow.way, nodes, bound.stage == DARK);
+        sum += select(vec3<f32>(0.0), piece.radiance, bound.stage == LIT);
+        bound.sum += select(piece.radiance, vec3<f32>(0.0), bound.stage == LIT);
         cursor = piece.next;
         whole = cursor.light > light;
-        partly = partly || (part.x < part.y && (part.x > 0.0 || part.y < shadow.way));
         if whole {
             let at_end = found.walk.x >= shadow.way;
-            if at_end && found.walk.depth <= 0 && !bounds {
+            if at_end && found.walk.depth <= 0 && bound.stage == LIT {
                 lit_bits += bit_of_light(light);
             }
-            // nodes err: the sum over parts may come to more than that over the ray
-            sum = select(sum, min(sum, unshadowed), bounds);
-            bounds = at_end && partly && !bounds;
-            let done = at_end && !bounds;
+            sum = select(sum, min(sum, bound.sum), bound.stage == WHOLE);
+            bound = next_stage(bound, sum, at_end, nodes);
+            let done = at_end && bound.stage == LIT;
             light += select(0u, 1u, done);
             cursor = Cursor(light, 0u, 0.0);
-            before = select(before, sum, done);
-            unshadowed = before;
-            partly = partly && !done;
             if done {
+                bound = unbounded(sum);
                 shadow = shadow_ray(shadow_lights.items[light], ray, way);
                 found.walk = start_of_walk(shadow_lights.items[light], shadow);
             }

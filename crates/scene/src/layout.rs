@@ -279,12 +279,12 @@ pub struct ShadowLight {
     pub first_bin: u32,
     /// Equal parts of the turn about the axis.
     pub bins: u32,
-    /// Among the shadow edges: those of triangles that touch the eye.
-    pub first_touching: u32,
-    /// Number of these edges.
-    pub touching: u32,
     /// 0.
-    pub pad: u32,
+    pub pad0: u32,
+    /// 0.
+    pub pad1: u32,
+    /// 0.
+    pub pad2: u32,
 }
 
 /// `ShadowCrossing`.
@@ -303,7 +303,7 @@ pub struct ShadowCrossing {
 pub struct ShadowEdge {
     /// m, in the frame of the light.
     pub a: [f32; 3],
-    /// Triangles beyond it less those before it.
+    /// Triangles beyond it less those before it; of a triangle that touches the eye the other way round.
     pub step: i32,
     /// m, in the frame of the light.
     pub b: [f32; 3],

@@ -50,10 +50,7 @@ fn structs_match_the_shader() {
     same!(structs, Object { material, casts_shadow, pad0, pad1 });
     same!(structs, Material { diffuse, texture, specular, shininess, lobe, pad0, pad1, pad2 });
     same!(structs, Texture { offset, width, height, wrap });
-    same!(
-        structs,
-        ShadowLight { across, nearness, upward, depth_at_eye, axis, first_bin, bins, first_touching, touching, pad }
-    );
+    same!(structs, ShadowLight { across, nearness, upward, depth_at_eye, axis, first_bin, bins, pad0, pad1, pad2 });
     same!(structs, OccluderNode { low, first, high, triangles, skip, pad0, pad1, pad2 });
     same!(structs, ShadowCrossing { nearest, edge });
     same!(structs, ShadowEdge { a, step, b, away });

@@ -15,7 +15,6 @@ use tyndall_shaders::shadows::{UNSEEN, edge_touches, height_above};
 
 use super::silhouette::SilhouetteEdge;
 use super::slices::{LightFrame, PlacedEdge, Turning};
-use crate::layout::ShadowEdge;
 
 /// The edges of triangles that pass through the eye. They are the same for all lights.
 #[derive(Clone, Debug, Default)]
@@ -56,12 +55,12 @@ fn sides<T: Copy>([a, b, c]: [T; 3]) -> [[T; 2]; 3] {
 }
 
 /// What a light meets before the eye, and at it.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct AtEye {
     /// Triangles between the light and the eye.
     pub depth: i32,
-    /// Edges of those that touch it, each with z where the axis meets its plane.
-    pub touching: Vec<ShadowEdge>,
+    /// Edges of those that touch it.
+    pub touching: Vec<PlacedEdge>,
 }
 
 impl AtEye {
@@ -91,7 +90,7 @@ impl AtEye {
                 let sides = sides(*triangle).into_iter().zip(touches).filter(|(_, touches)| !touches);
                 let edges = sides.map(|(vertices, _)| SilhouetteEdge { vertices, excess: i32::from(*facing) });
                 let placed = edges.filter_map(|edge| PlacedEdge::of(&edge, places));
-                at_eye.touching.extend(placed.map(|edge| ShadowEdge { away: plane.away, ..edge.encode() }));
+                at_eye.touching.extend(placed.map(|edge| edge.at_eye(plane.away)));
             } else if plane.height < 0.0 {
                 at_eye.depth += i32::from(*facing) * if first { -1 } else { 1 };
             }
@@ -107,7 +106,7 @@ struct EyeAbovePlane {
     /// What rounding leaves open of it, m.
     rounded: f64,
     /// Where the axis meets the plane behind the eye, m; below 0 only where the eye is behind the plane for certain.
-    away: f32,
+    away: f64,
 }
 
 impl EyeAbovePlane {
@@ -118,7 +117,7 @@ impl EyeAbovePlane {
         let (height, rounded) = (f64::from(facing) * height / normal.length(), rounded / normal.length());
         let beside = if height < -rounded { height } else { height.max(0.0) + rounded };
         let away = beside * normal.length() / normal.dot(frame.axis()).abs();
-        EyeAbovePlane { height, rounded, away: away.clamp(-1e18, 1e18) as f32 }
+        EyeAbovePlane { height, rounded, away }
     }
 
     /// The eye is in the plane, as near as that can be told, or so little before it that nothing of it is seen.

@@ -92,16 +92,14 @@ impl Shadows {
             !edges_at_eye.is_empty() && edge_touches(eye, edge.vertices.map(|vertex| self.positions[vertex as usize]))
         };
         let seen = silhouette.iter().filter(|edge| !passes_eye(edge));
-        let placed: Vec<PlacedEdge> = seen.filter_map(|edge| PlacedEdge::of(edge, &places)).collect();
+        let placed = seen.filter_map(|edge| PlacedEdge::of(edge, &places));
+        let placed: Vec<PlacedEdge> = placed.chain(at_eye.touching).collect();
         let (borders, spans) = slices::lay_out(&frame, &placed, lists.edges.len() as u32, most);
         let first_bin = lists.starts.len() as u32;
         slices::sort(&borders, &spans, &mut lists.starts, &mut lists.crossings);
         lists.edges.extend(placed.iter().map(PlacedEdge::encode));
-        let first_touching = lists.edges.len() as u32;
-        let touching = at_eye.touching.len() as u32;
-        lists.edges.extend(at_eye.touching);
         let bins = borders.bins.len() as u32 - 1;
-        ShadowLight { first_bin, bins, first_touching, touching, ..frame.encode(at_eye.depth) }
+        ShadowLight { first_bin, bins, ..frame.encode(at_eye.depth) }
     }
 }
 

@@ -94,6 +94,7 @@ impl Turning {
 }
 
 /// An edge that runs counter-clockwise about the axis.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedEdge {
     /// m.
     pub a: DVec3,
@@ -101,6 +102,8 @@ pub(crate) struct PlacedEdge {
     pub b: DVec3,
     /// By how many triangles there are more between the light and a ray that crosses the edge from the axis outward.
     step: i32,
+    /// Of a triangle that touches the eye: z where the axis meets its plane, m.
+    away: Option<f32>,
 }
 
 impl PlacedEdge {
@@ -108,16 +111,28 @@ impl PlacedEdge {
     pub(crate) fn of(edge: &SilhouetteEdge, places: &[DVec3]) -> Option<PlacedEdge> {
         let [a, b] = edge.vertices.map(|vertex| places[vertex as usize]);
         let placed = if Turning::of(a, b).left {
-            PlacedEdge { a, b, step: edge.excess }
+            PlacedEdge { a, b, step: edge.excess, away: None }
         } else {
-            PlacedEdge { a: b, b: a, step: -edge.excess }
+            PlacedEdge { a: b, b: a, step: -edge.excess, away: None }
         };
         (a.is_finite() && b.is_finite()).then_some(placed)
     }
 
+    /// The same of a triangle that touches the eye: rays that pass behind it are in the triangle's shadow from the start.
+    pub(crate) fn at_eye(self, away: f64) -> PlacedEdge {
+        let (least, most) = (1e-18, 1e18);
+        let away = away.signum() * away.abs().clamp(least, most);
+        PlacedEdge { step: -self.step, away: Some(away as f32), ..self }
+    }
+
+    /// Whether it is of a triangle that touches the eye.
+    pub(crate) fn is_at_eye(&self) -> bool {
+        self.away.is_some()
+    }
+
     pub(crate) fn encode(&self) -> ShadowEdge {
         let floats = crate::encode::floats;
-        ShadowEdge { a: floats(self.a), step: self.step, b: floats(self.b), ..Default::default() }
+        ShadowEdge { a: floats(self.a), step: self.step, b: floats(self.b), away: self.away.unwrap_or(0.0) }
     }
 }
 
@@ -163,8 +178,7 @@ pub(crate) fn sort(borders: &Borders, spans: &[Span], starts: &mut Vec<u32>, cro
         *slice = end;
     }
     let first = crossings.len();
-    let first_slice = starts.len() + borders.bins.len();
-    starts.extend(borders.bins.iter().map(|slice| (first_slice + *slice as usize) as u32));
+    starts.extend(borders.bins.windows(2).map(|slices| slices[0] << 16 | (slices[1] - slices[0])));
     starts.extend([0].iter().chain(&ends).map(|end| (first + end) as u32));
     crossings.resize(first + end, ShadowCrossing::default());
     let threads = std::thread::available_parallelism().map_or(1, NonZero::get).min(1 + end / CROSSINGS_OF_THREAD);
@@ -239,5 +253,45 @@ mod tests {
         let keys = crossings.map(|(nearest, edge)| key(nearest, edge));
         assert!(keys.is_sorted());
         assert_eq!(keys.map(|key| (nearest_of(key), key as u32)), crossings);
+    }
+
+    /// Edges of a ring of small squares about the axis, seen from the side, all within a degree of one another or all round.
+    fn ring(width: f64) -> (LightFrame, Vec<PlacedEdge>) {
+        let frame = LightFrame::new(Source::Along(DVec3::Z), DVec3::ZERO).unwrap();
+        let edge = |index: u32| {
+            let at = |turn: f64| DVec3::new(turn.cos(), turn.sin(), 0.3 * turn.sin()) * (1.0 + f64::from(index % 7));
+            let turn = 1.0 + width * f64::from(index) / 1000.0;
+            PlacedEdge { a: at(turn), b: at(turn + width / 1000.0), step: 1, away: None }
+        };
+        (frame, (0..1000).map(edge).collect())
+    }
+
+    fn crossings_by_slice(width: f64, most: usize) -> Vec<usize> {
+        let (frame, edges) = ring(width);
+        let (borders, spans) = lay_out(&frame, &edges, 0, most);
+        let (mut starts, mut crossings) = (Vec::new(), Vec::new());
+        sort(&borders, &spans, &mut starts, &mut crossings);
+        let slices = &starts[borders.bins.len() - 1..];
+        assert_eq!(slices.last().map(|end| *end as usize), Some(crossings.len()));
+        slices.windows(2).map(|pair| (pair[1] - pair[0]) as usize).collect()
+    }
+
+    /// However small the part of the turn is that edges are in, no slice has many.
+    #[test]
+    fn slices_lie_where_edges_are() {
+        for width in [std::f64::consts::TAU, 0.1, 0.01] {
+            let most = crossings_by_slice(width, usize::MAX).into_iter().max();
+            assert!(most.is_some_and(|most| most <= 10), "{most:?} crossings in a slice, edges within {width} rad");
+        }
+    }
+
+    /// Where there is little room, slices are wider, down to one that holds every edge.
+    #[test]
+    fn crossings_keep_within_their_room() {
+        for room in [100_000, 5_000, 2_500, 1_100] {
+            let crossings: usize = crossings_by_slice(0.3, room).iter().sum();
+            assert!(crossings <= room && crossings >= 1000, "{crossings} of {room}");
+        }
+        assert_eq!(crossings_by_slice(0.3, 10), [1000]);
     }
 }

@@ -111,8 +111,8 @@ impl Span {
         borders: &Borders,
     ) -> Span {
         let nearest = match range {
-            Some(range) => Nearest::of(edge, frame, range),
-            None => Nearest::Everywhere(f64::from(f32::MAX)),
+            Some(range) if !edge.is_at_eye() => Nearest::of(edge, frame, range),
+            _ => Nearest::Everywhere(f64::from(f32::MAX)),
         };
         Span { edge: number, slices: borders.spanned(range), nearest }
     }
