@@ -122,7 +122,9 @@ impl Freshness {
             self.run.fill(true);
             return self.run.len();
         }
-        self.run.copy_from_slice(&self.always);
+        for pass in 0..self.run.len() {
+            self.run[pass] = self.always[pass] && !self.is_given(plan, pass);
+        }
         loop {
             self.pull(plan);
             if !self.overwritten(plan) {
@@ -186,6 +188,13 @@ impl Freshness {
                 }
             }
         }
+    }
+
+    /// All that a pass writes was put there from outside, and it does nothing else.
+    fn is_given(&self, plan: &Plan, pass: usize) -> bool {
+        let mut outputs = plan.outputs_of(pass as u32);
+        let writes_alone = !plan.descriptor(pass as u32).side_effect && !outputs.is_empty();
+        writes_alone && outputs.all(|port| self.given[port as usize])
     }
 
     fn valid(&self, plan: &Plan, port: usize) -> bool {

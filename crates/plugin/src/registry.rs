@@ -1,6 +1,6 @@
 //! Every pass that a graph can use, linked and checked, and how to make each ready.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::hash::Hasher;
 use std::sync::Arc;
 
@@ -127,7 +127,7 @@ impl Registry {
         let mut registry = self.clone();
         if let Some(pass) = registry.passes.get_mut(pass) {
             pass.shaders.0.insert(file.to_owned(), shader.clone());
-            pass.fingerprint = fingerprint(&pass.shaders);
+            pass.fingerprint = fingerprint(&pass.shaders, &pass.make);
         }
         registry
     }
@@ -288,7 +288,7 @@ impl Builder<'_> {
             }
             return;
         }
-        let fingerprint = fingerprint(&shaders);
+        let fingerprint = fingerprint(&shaders, &make);
         let pass = RegistryPass {
             descriptor: descriptor.clone(),
             version: manifest.version,
@@ -305,9 +305,15 @@ impl Builder<'_> {
     }
 }
 
-fn fingerprint(shaders: &Shaders) -> u64 {
+/// Of the shaders, each in its place, and of what the manifest says they run over.
+fn fingerprint(shaders: &Shaders, make: &Make) -> u64 {
     let mut hasher = SipHasher13::new();
-    let all: BTreeSet<u64> = shaders.0.values().map(|linked| linked.fingerprint).collect();
-    all.iter().for_each(|fingerprint| hasher.write(&fingerprint.to_le_bytes()));
+    for (file, linked) in shaders.0.iter().collect::<BTreeMap<_, _>>() {
+        hasher.write(file.as_bytes());
+        hasher.write(&linked.fingerprint.to_le_bytes());
+    }
+    if let Make::Dispatch { over, .. } = make {
+        hasher.write(format!("{over:?}").as_bytes());
+    }
     hasher.finish()
 }

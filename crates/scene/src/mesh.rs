@@ -1,5 +1,7 @@
 //! Triangle meshes in their own space, before any transform.
 
+use std::cmp::Ordering;
+
 use glam::{Vec2, Vec3};
 
 /// An indexed triangle mesh. `positions`, `normals` and `uvs` have one entry per vertex.
@@ -22,6 +24,21 @@ impl Mesh {
     pub(crate) fn area_normal(&self, triangle: [u32; 3]) -> Vec3 {
         let [a, b, c] = triangle.map(|i| self.positions[i as usize]);
         (b - a).cross(c - a)
+    }
+
+    /// Turns the indices of each triangle until the corner with the least position comes first. Of a thin triangle what
+    /// single precision makes depends on that, and so it would on how a file happens to list the corners.
+    pub(crate) fn turn_triangles(&mut self) {
+        let Mesh { positions, triangles, .. } = self;
+        for triangle in triangles {
+            let place = |corner: &usize| positions[triangle[*corner] as usize].to_array();
+            let order = |a: &usize, b: &usize| {
+                let pairs = place(a).into_iter().zip(place(b));
+                pairs.map(|(a, b)| a.total_cmp(&b)).fold(Ordering::Equal, Ordering::then)
+            };
+            let first = (0..3).min_by(order).unwrap_or_default();
+            triangle.rotate_left(first);
+        }
     }
 
     /// Gives every triangle three vertices of its own with the triangle's normal (glTF 2.0, 3.7.2.1: a primitive
@@ -60,6 +77,21 @@ impl Mesh {
         }
         for index in missing {
             self.normals[index] = sums[index].try_normalize().unwrap_or(Vec3::Y);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn triangles_begin_with_the_same_corner_however_they_are_listed() {
+        let positions = vec![Vec3::new(1.0, 2.0, 3.0), Vec3::new(1.0, -2.0, 9.0), Vec3::new(4.0, 0.0, 0.0)];
+        for listed in [[0, 1, 2], [1, 2, 0], [2, 0, 1]] {
+            let mut mesh = Mesh { positions: positions.clone(), triangles: vec![listed], ..Mesh::default() };
+            mesh.turn_triangles();
+            assert_eq!(mesh.triangles, [[1, 2, 0]], "and its winding is kept");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What a port was made from, as numbers that change when it does.
 
-use tyndall_graph::descriptor::{ParamValue, Role};
-use tyndall_graph::{ParamSetting, Plan, Resource};
+use tyndall_graph::descriptor::ParamValue;
+use tyndall_graph::{ParamSetting, Plan, Resource, SlotKind};
 use tyndall_plugin::Registry;
 use tyndall_scene::Encoded;
 
@@ -35,17 +35,36 @@ impl Fingerprint {
     }
 }
 
-/// The fingerprints of a plan's passes by position; `None` for those that depend on a frame before.
-pub(crate) fn fingerprints(
-    plan: &Plan,
-    registry: &Registry,
-    scene: Option<&Encoded>,
-    frame: u32,
-) -> Vec<Option<Fingerprint>> {
-    let mut found: Vec<Option<Fingerprint>> = Vec::with_capacity(plan.passes.len());
-    for pass in 0..plan.passes.len() as u32 {
-        let of_pass = of_pass(plan, registry, scene, frame, pass, &found);
-        found.push(of_pass);
+/// What a pass was made from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Print {
+    /// Of a pass that depends on frames before: its own frame's scene, and the passes that wrote what it remembers.
+    pub made_from: Fingerprint,
+    /// It depends on frames before.
+    pub remembers: bool,
+    /// It, or a pass before it, does something beside writing its ports.
+    has_side_effect: bool,
+}
+
+impl Print {
+    /// What its results are known by; `None` where one may differ from another of the same fingerprint.
+    pub fn shared(&self) -> Option<Fingerprint> {
+        (!self.remembers && !self.has_side_effect).then_some(self.made_from)
+    }
+}
+
+/// The fingerprints of a plan's passes by position.
+pub(crate) fn fingerprints(plan: &Plan, registry: &Registry, scene: Option<&Encoded>, frame: u32) -> Vec<Print> {
+    // What is remembered was made by passes that stand later, and from what they remember: first each by itself.
+    let mut found: Vec<Print> = Vec::new();
+    for _ in 0..2 {
+        let before = std::mem::take(&mut found);
+        for pass in 0..plan.passes.len() as u32 {
+            found.push(of_pass(plan, registry, (scene, frame), pass, &found, &before));
+        }
+        if !found.iter().any(|print| print.remembers) {
+            break;
+        }
     }
     found
 }
@@ -53,59 +72,94 @@ pub(crate) fn fingerprints(
 fn of_pass(
     plan: &Plan,
     registry: &Registry,
-    scene: Option<&Encoded>,
-    frame: u32,
+    (scene, frame): (Option<&Encoded>, u32),
     pass: u32,
-    upstream: &[Option<Fingerprint>],
-) -> Option<Fingerprint> {
+    upstream: &[Print],
+    before: &[Print],
+) -> Print {
     let descriptor = plan.descriptor(pass);
-    if descriptor.side_effect || descriptor.ports.iter().any(|port| matches!(port.role, Role::History(_))) {
-        return None;
+    let (mut remembers, mut has_side_effect) = (false, descriptor.side_effect);
+    let mut digests = Digests::default();
+    digests.graph.text(&descriptor.name);
+    digests.graph.number(u64::from(descriptor.revision));
+    for port in &descriptor.ports {
+        digests.graph.text(&port.name);
     }
-    let [mut graph, mut shaders, mut parameters, mut scene_data] = [Digest::default(); 4];
-    graph.text(&descriptor.name);
-    graph.number(u64::from(descriptor.revision));
     for binding in plan.bindings(pass) {
         let slot = binding.map(|slot| &plan.slots[slot as usize]);
-        graph.text(&slot.map_or(String::new(), |slot| resource(&slot.resource)));
+        digests.graph.text(&slot.map_or(String::new(), |slot| resource(&slot.resource)));
         let initial = slot.and_then(|slot| slot.initial());
-        initial.into_iter().flatten().for_each(|number| graph.number(u64::from(number.to_bits())));
+        initial.into_iter().flatten().for_each(|number| digests.graph.number(u64::from(number.to_bits())));
+        if let Some(SlotKind::History { of, .. }) = slot.map(|slot| slot.kind) {
+            remembers = true;
+            let port = &plan.ports[of as usize];
+            digests.graph.number(u64::from(port.port.port));
+            if let Some(print) = port.pass.and_then(|pass| before.get(pass as usize)) {
+                digests.add(print.made_from);
+            }
+        }
     }
-    shaders.number(registry.pass(&descriptor.name).map_or(0, |pass| pass.fingerprint));
-    for setting in plan.params(pass) {
+    digests.shaders.number(registry.pass(&descriptor.name).map_or(0, |pass| pass.fingerprint));
+    for (param, setting) in descriptor.params.iter().zip(plan.params(pass)) {
+        digests.parameters.text(&param.name);
         match setting {
-            ParamSetting::Value(ParamValue::File(path)) => parameters.bytes(&std::fs::read(path).unwrap_or_default()),
-            ParamSetting::Value(value) => parameters.text(&value.to_string()),
-            ParamSetting::Frame => parameters.text(&format!("frame {frame}")),
-            ParamSetting::Time => parameters.text(&format!("time of frame {frame}")),
+            ParamSetting::Value(ParamValue::File(path)) => {
+                digests.parameters.bytes(&std::fs::read(path).unwrap_or_default())
+            }
+            ParamSetting::Value(value) => digests.parameters.text(&value.to_string()),
+            ParamSetting::Frame => digests.parameters.text(&format!("frame {frame}")),
+            ParamSetting::Time => digests.parameters.text(&format!("time of frame {frame}")),
         }
     }
     for name in &descriptor.scene {
-        scene_data.text(name);
-        scene_data.bytes(scene.map_or(&[], |scene| scene.bytes(name)));
+        digests.scene.text(name);
+        digests.scene.bytes(scene.map_or(&[], |scene| scene.bytes(name)));
     }
     for source in plan.sources(pass) {
         let Some(port) = source.map(|source| &plan.ports[source as usize]) else {
-            graph.text("nothing is fed");
+            digests.graph.text("nothing is fed");
             continue;
         };
         let Some(producer) = port.pass else {
-            graph.text("a constant is fed");
+            digests.graph.text("a constant is fed");
             continue;
         };
-        let print = upstream[producer as usize]?;
-        graph.number(u64::from(port.port.port));
-        graph.number(print.graph);
-        shaders.number(print.shaders);
-        parameters.number(print.parameters);
-        scene_data.number(print.scene);
+        let print = &upstream[producer as usize];
+        remembers |= print.remembers;
+        has_side_effect |= print.has_side_effect;
+        digests.graph.number(u64::from(port.port.port));
+        digests.add(print.made_from);
     }
-    Some(Fingerprint {
-        graph: graph.finish(),
-        shaders: shaders.finish(),
-        parameters: parameters.finish(),
-        scene: scene_data.finish(),
-    })
+    Print { made_from: digests.finish(), remembers, has_side_effect }
+}
+
+/// A fingerprint in the making.
+#[derive(Default)]
+struct Digests {
+    graph: Digest,
+    shaders: Digest,
+    parameters: Digest,
+    scene: Digest,
+}
+
+impl Digests {
+    /// Of a pass that is read.
+    fn add(&mut self, print: Fingerprint) {
+        self.graph.number(print.graph);
+        self.shaders.number(print.shaders);
+        self.parameters.number(print.parameters);
+        self.scene.number(print.scene);
+    }
+
+    fn finish(&self) -> Fingerprint {
+        let Self { graph, shaders, parameters, scene } = self;
+        Fingerprint {
+            graph: graph.finish(),
+            shaders: shaders.finish(),
+            parameters: parameters.finish(),
+            scene: scene.finish(),
+        }
+    }
 }
 
 fn resource(resource: &Resource) -> String {

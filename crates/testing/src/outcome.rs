@@ -113,6 +113,9 @@ impl Problem {
             Problem::Orphan(path) if crate::golden::may_be_dropped(path) => {
                 format!("no tap claims the golden `{}`: delete it, or bless to drop it", path.display())
             }
+            Problem::Orphan(path) if path.to_string_lossy().ends_with(crate::file::GOLDENS) => {
+                format!("no test claims the goldens `{}`: delete them, or restore their test", path.display())
+            }
             Problem::Orphan(path) => {
                 format!(
                     "`{}` lies among goldens, and no test knows it: delete it, or move it elsewhere",
@@ -306,13 +309,15 @@ impl Outcome {
                 other => format!("  {}\n", other.line()),
             };
         }
-        if let Some(first) = self.guilty().first() {
-            let kind = self.ports.iter().find(|port| port.pass == *first).map_or("", |port| port.kind.as_str());
-            text += &format!(
-                "  first diverging pass: `{first}`{}\n",
-                if kind.is_empty() { String::new() } else { format!(" ({kind})") }
-            );
-            if let Some(Suspicion { unheld, .. }) = self.suspicions.iter().find(|suspicion| suspicion.pass == *first) {
+        for (at, guilty) in self.guilty().into_iter().enumerate() {
+            let kind = self.passes.iter().find(|pass| pass.name == guilty).map_or("", |pass| pass.kind.as_str());
+            let suspicion = self.suspicions.iter().find(|suspicion| suspicion.pass == guilty);
+            match at {
+                0 => text += &format!("  first diverging pass: `{guilty}` ({kind})\n"),
+                _ if suspicion.is_some() => text += &format!("  diverging too: `{guilty}` ({kind})\n"),
+                _ => {}
+            }
+            if let Some(Suspicion { unheld, .. }) = suspicion {
                 let ports = unheld.join("`, `");
                 text += &format!(
                     "    or what it depends on: `{ports}` may be wrong, and no check would tell: give it a golden or a CpuReference that is strict enough\n"

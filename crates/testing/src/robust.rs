@@ -26,14 +26,19 @@ pub(crate) fn run(
     let tapped: Vec<PortRef> = ready.tapped.iter().map(|tapped| tapped.port).collect();
     for (name, variation) in options.robustness.variations() {
         outcome.ways += 1;
+        let mut found: Vec<Option<String>> = vec![None; own.len()];
         for ports in [&tapped, &outputs] {
             let other = session.render(&ready.loaded, &ready.registry, ports, &ready.file.frames, variation)?;
-            for (own, other) in own.iter().zip(&other) {
-                outcome.robustness.extend(differing(ready, &name, own, other));
+            for ((own, other), found) in own.iter().zip(&other).zip(&mut found) {
+                *found = found.take().or_else(|| differing(ready, &name, own, other));
+            }
+        }
+        for line in found.into_iter().flatten() {
+            if !outcome.robustness.contains(&line) {
+                outcome.robustness.push(line);
             }
         }
     }
-    outcome.robustness.dedup();
     Ok(())
 }
 
@@ -59,7 +64,8 @@ fn differing(ready: &Ready, name: &str, own: &Rendered, other: &Rendered) -> Opt
         let (a, b) = (comparable(a, unordered), comparable(b, unordered));
         let count = a.iter().zip(&b).filter(|(a, b)| a != b).count();
         let port = ready.loaded.graph.port_name(*port);
-        (a != b).then(|| format!("`{port}` came out different {name}: {count} of {} numbers", a.len()))
+        let frame = if ready.file.frames.len() > 1 { format!(" in frame {}", own.frame) } else { String::new() };
+        (a != b).then(|| format!("`{port}` came out different{frame} {name}: {count} of {} numbers", a.len()))
     })
 }
 

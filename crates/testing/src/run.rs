@@ -13,7 +13,7 @@ use tyndall_render::{Error, Loaded, load};
 use crate::adapter::AdapterClass;
 use crate::blame::{Upstream, attribute};
 use crate::file::{Change, Expectation, Property, Tapped, TestFile, check, check_run, matches, read};
-use crate::fingerprint::Fingerprint;
+use crate::fingerprint::Print;
 use crate::golden::{self, Records};
 use crate::judge::{Computing, Judge};
 use crate::metric::Judgement;
@@ -195,6 +195,9 @@ impl Session {
                 break;
             }
             let expect: Vec<_> = relation.expect.iter().filter(|expectation| wanted(&expectation.port)).collect();
+            if expect.is_empty() {
+                continue;
+            }
             let ports: Vec<PortRef> = expect.iter().filter_map(|expectation| find(graph, &expectation.port)).collect();
             let asking = expect.iter().zip(&ports).filter(|(each, _)| matches!(each.change, Change::CpuReference(_)));
             let inputs = asking.flat_map(|(_, port)| ready.inputs(port.pass)).map(|(_, port)| port);
@@ -207,7 +210,7 @@ impl Session {
                 let loaded = load(&request, &ready.registry, &mut out).filter(|_| !out.has_errors());
                 let Some(loaded) = loaded else { return Err(out.into()) };
                 let plan = Self::plan(&loaded.graph, Roots::Ports(rendering.clone()), Variation::PLAIN)?;
-                check_run(&ready.file, relation, (&ready.loaded, &ready.plan), (&loaded, &plan), &mut out);
+                check_run(&ready.file, &expect, (&ready.loaded, &ready.plan), (&loaded, &plan), &mut out);
                 if out.has_errors() {
                     return Err(out.into());
                 }
@@ -267,8 +270,8 @@ impl Session {
         let own = self.prints(&ready.loaded, &ready.registry, &ready.plan, frame);
         let others = self.prints(other, &ready.registry, plan, frame);
         let is_same = |port: &u32| {
-            let print = |plan: &Plan, prints: &[Option<Fingerprint>], port: u32| {
-                prints[plan.ports[port as usize].pass? as usize]
+            let print = |plan: &Plan, prints: &[Print], port: u32| {
+                Some(prints[plan.ports[port as usize].pass? as usize].made_from)
             };
             let in_other = plan.planned(ready.plan.ports[*port as usize].port);
             let print_there = in_other.and_then(|port| print(plan, &others, port));

@@ -14,7 +14,7 @@ use tyndall_render::{Error, Loaded, Running};
 use tyndall_scene::Encoded;
 
 use crate::answers::Answers;
-use crate::fingerprint::{Fingerprint, fingerprints};
+use crate::fingerprint::{Fingerprint, Print, fingerprints};
 use crate::picture::Picture;
 use crate::substitute::Substitute;
 use crate::untapped::written;
@@ -45,7 +45,8 @@ pub struct Session {
     pub saved: Saved,
 }
 
-pub(crate) type ResultKey = (Fingerprint, u32);
+/// What a port was made from, which port of the pass it is, and of one that depends on frames before the frame.
+pub(crate) type ResultKey = (Fingerprint, u32, Option<u32>);
 
 /// Results that are held at most, numbers: 1 GiB. Beyond it all are let go, and sharing begins anew.
 const MOST_HELD: usize = 1 << 28;
@@ -268,19 +269,17 @@ impl Session {
             if frames.contains(&frame) {
                 let prints = self.prints(loaded, registry, running.executor.plan(), frame);
                 rendered.push(read_all(&running.executor, ports, frame, &prints)?);
+                // To tell what a shader that stands in changes; nobody else asks for results that remember.
+                if remembers && variation.reuse {
+                    self.keep_or_compare(loaded, running.executor.plan(), rendered.last(), &prints);
+                }
             }
         }
         running.warn_of_unfinished(&mut self.unfinished)?;
         Ok(rendered)
     }
 
-    pub(crate) fn prints(
-        &self,
-        loaded: &Loaded,
-        registry: &Registry,
-        plan: &Plan,
-        frame: u32,
-    ) -> Vec<Option<Fingerprint>> {
+    pub(crate) fn prints(&self, loaded: &Loaded, registry: &Registry, plan: &Plan, frame: u32) -> Vec<Print> {
         let encoded = encode(loaded, plan, frame);
         fingerprints(plan, registry, encoded.as_ref(), frame)
     }
@@ -300,7 +299,7 @@ impl Session {
         for port in ports {
             let Some(planned) = plan.planned(*port) else { continue };
             let key = key(plan, &prints, planned);
-            rendered.made_from.insert(*port, key.map(|key| key.0));
+            rendered.made_from.insert(*port, made_from(plan, &prints, planned));
             match key.and_then(|key| self.known(&key)) {
                 Some(data) => drop(rendered.ports.insert(*port, data.clone())),
                 None => missing.push(*port),
@@ -334,20 +333,33 @@ impl Session {
     }
 
     /// The fingerprints of the passes that an executor has run, and what each took.
-    fn ran(&mut self, executor: &Executor, prints: &[Option<Fingerprint>]) -> Vec<Option<Fingerprint>> {
+    fn ran(&mut self, executor: &Executor, prints: &[Print]) -> Vec<Fingerprint> {
         let ran = executor.counters().iter().zip(prints).filter(|(counters, _)| counters.runs > 0);
         for (counters, print) in ran.clone() {
             let took = Duration::from_secs_f64(counters.alone_us / 1e6);
-            print.map(|print| self.costs.entry(print).or_insert(took));
+            self.costs.entry(print.made_from).or_insert(took);
         }
-        ran.map(|(_, print)| *print).collect()
+        ran.map(|(_, print)| print.made_from).collect()
     }
 
     /// Counts the passes of a plan that have not run, as they had before.
-    fn spare(&mut self, plan: &Plan, prints: &[Option<Fingerprint>], ran: &[Option<Fingerprint>]) {
+    fn spare(&mut self, plan: &Plan, prints: &[Print], ran: &[Fingerprint]) {
         self.saved.spared += plan.passes.len() - ran.len();
-        let spared = prints.iter().filter(|print| !ran.contains(print)).flatten();
+        let spared = prints.iter().map(|print| &print.made_from).filter(|print| !ran.contains(print));
         self.saved.spared_time += spared.filter_map(|print| self.costs.get(print)).sum::<Duration>();
+    }
+
+    fn keep_or_compare(&mut self, loaded: &Loaded, plan: &Plan, rendered: Option<&Rendered>, prints: &[Print]) {
+        let Some(rendered) = rendered else { return };
+        if self.substitute.is_some() {
+            return self.compare(loaded, plan, rendered);
+        }
+        for (port, data) in &rendered.ports {
+            let key = plan.planned(*port).and_then(|planned| result_key(plan, prints, planned, rendered.frame));
+            if let Some(key) = key {
+                self.keep(key, data);
+            }
+        }
     }
 
     /// Holds what was rendered against what the pass's own shader made of it before.
@@ -357,8 +369,7 @@ impl Session {
         };
         let prints = self.prints(loaded, &original, plan, rendered.frame);
         let differs = |(port, data): (&PortRef, &Arc<PortData>)| {
-            let planned = &plan.ports[plan.planned(*port)? as usize];
-            let before = self.results.get(&(prints[planned.pass? as usize]?, planned.port.port))?;
+            let before = self.results.get(&result_key(plan, &prints, plan.planned(*port)?, rendered.frame)?)?;
             let same = before.data.iter().zip(&data.data).all(|(a, b)| a.to_bits() == b.to_bits());
             Some(!same)
         };
@@ -369,7 +380,7 @@ impl Session {
     }
 
     /// Gives every result that is known from before, where a device takes it.
-    fn give_known(&self, executor: &mut Executor, prints: &[Option<Fingerprint>]) -> Result<(), Error> {
+    fn give_known(&self, executor: &mut Executor, prints: &[Print]) -> Result<(), Error> {
         for port in 0..executor.plan().ports.len() as u32 {
             let known = key(executor.plan(), prints, port).and_then(|key| self.known(&key));
             if let Some(data) = known.filter(|_| can_be_given(executor.plan().resource(port))) {
@@ -439,31 +450,36 @@ impl Session {
         }
         running.frame(FrameOptions { frame, ..FrameOptions::default() })?;
         running.warn_of_unfinished(&mut self.unfinished)?;
-        let prints = vec![None; running.executor.plan().passes.len()];
-        let rendered = read_all(&running.executor, ports, frame, &prints);
+        // What was given was made from nothing that is known here.
+        let rendered = read_all(&running.executor, ports, frame, &[]);
         self.saved.rendering += start.elapsed();
         rendered
     }
 }
 
-/// What a result is known by.
-fn key(plan: &Plan, prints: &[Option<Fingerprint>], port: u32) -> Option<ResultKey> {
+/// What a result is known by, where it can be shared.
+fn key(plan: &Plan, prints: &[Print], port: u32) -> Option<ResultKey> {
     let planned = &plan.ports[port as usize];
-    Some((prints[planned.pass? as usize]?, planned.port.port))
+    Some((prints[planned.pass? as usize].shared()?, planned.port.port, None))
 }
 
-fn read_all(
-    executor: &Executor,
-    ports: &[PortRef],
-    frame: u32,
-    prints: &[Option<Fingerprint>],
-) -> Result<Rendered, Error> {
+/// What a result is known by, also where it depends on frames before this one.
+fn result_key(plan: &Plan, prints: &[Print], port: u32, frame: u32) -> Option<ResultKey> {
+    let planned = &plan.ports[port as usize];
+    let print = &prints[planned.pass? as usize];
+    Some((print.made_from, planned.port.port, print.remembers.then_some(frame)))
+}
+
+fn made_from(plan: &Plan, prints: &[Print], port: u32) -> Option<Fingerprint> {
+    Some(prints.get(plan.ports[port as usize].pass? as usize)?.made_from)
+}
+
+fn read_all(executor: &Executor, ports: &[PortRef], frame: u32, prints: &[Print]) -> Result<Rendered, Error> {
     let mut rendered = Rendered { frame, ports: BTreeMap::new(), made_from: BTreeMap::new() };
     for port in ports {
         let Some(planned) = executor.plan().planned(*port) else { continue };
         rendered.ports.insert(*port, Arc::new(executor.read(planned)?));
-        let print = executor.plan().ports[planned as usize].pass.and_then(|pass| prints[pass as usize]);
-        rendered.made_from.insert(*port, print);
+        rendered.made_from.insert(*port, made_from(executor.plan(), prints, planned));
     }
     Ok(rendered)
 }

@@ -17,18 +17,20 @@ fn the_pass_in_ten_minutes_works() {
     let guide = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../CONTRIBUTING.md");
     let guide = std::fs::read_to_string(guide).unwrap();
     let desk = Desk::new();
-    let ([manifest], [shader]) = (&blocks(&guide, "ron")[..], &blocks(&guide, "wgsl")[..]) else {
-        panic!("one manifest and one shader are expected")
+    let ([manifest, test], [shader]) = (&blocks(&guide, "ron")[..], &blocks(&guide, "wgsl")[..]) else {
+        panic!("one manifest, one test and one shader are expected")
     };
     desk.put("plugins/lens/plugin.ron", manifest);
     desk.put("plugins/lens/falloff.wgsl", shader);
-    let line = guide.split("Use it in a graph: `").nth(1).unwrap().split('`').next().unwrap();
+    desk.put("my.test.ron", test);
+    let line = guide.split("writes `my.graph.ron`): `").nth(1).unwrap().split('`').next().unwrap();
     let graph = std::fs::read_to_string(desk.path("fog.graph.ron")).unwrap();
     let graph = graph.replace("        \"display\"", &format!("        {line},\n        \"display\""));
     let graph =
         graph.replace("\"radiance\": \"fogged.radiance\" }, params", "\"radiance\": \"lens.darkened\" }, params");
     desk.put("my.graph.ron", &graph.replace("size: (1280, 720)", "size: (640, 480)"));
-    let [commands] = &blocks(&guide, "sh")[..] else { panic!("one block of commands is expected") };
+    let commands = blocks(&guide, "sh").concat();
+    assert!(commands.contains("tyndall render") && commands.contains("tyndall test"));
     for command in commands.lines() {
         let command = command.split('#').next().unwrap();
         let arguments: Vec<&str> = command.split_whitespace().skip(1).collect();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use tyndall_document::Diagnostics;
 use tyndall_graph::{PlanOptions, Roots, plan};
-use tyndall_testing::file::{Property, Tapped, check, read};
+use tyndall_testing::file::{Tapped, check, read};
 use tyndall_testing::{TestFile, discover};
 
 fn root() -> PathBuf {
@@ -73,7 +73,9 @@ fn every_port_that_is_read_is_held() {
         let roots = Roots::Ports(tapped.iter().map(|tapped| tapped.port).collect());
         let plan = plan(&loaded.graph, &PlanOptions { roots, ..PlanOptions::new(loaded.graph.size) }).unwrap();
         let is_held = |port: u32| {
-            let holds = |tapped: &&Tapped| tapped.golden.is_some() || tapped.properties.iter().any(Property::is_whole);
+            let holds = |tapped: &&Tapped| {
+                tapped.golden.is_some() || tapped.properties.iter().any(|property| property.metric().is_some())
+            };
             tapped.iter().filter(holds).any(|tapped| plan.planned(tapped.port) == Some(port))
         };
         let read: BTreeSet<u32> =

@@ -1,5 +1,7 @@
 //! `test` and `diff`: what they say, and how they end.
 
+use tyndall_image::{Image, Meaning};
+
 use crate::run::{Desk, Ended, SCENE};
 
 /// A desk with the fog graph and a test of it that has been blessed.
@@ -231,7 +233,7 @@ fn goldens_without_a_test_fail() {
     std::fs::rename(desk.path("fog.goldens"), desk.path("mist.goldens")).unwrap();
     test(&desk, "\"air.radiance\": (properties: [Finite])");
     let failed = desk.ends(1, &["test"]);
-    assert!(failed.out.contains("no tap claims the golden `mist.goldens`"), "{}", failed.out);
+    assert!(failed.out.contains("no test claims the goldens `mist.goldens`"), "{}", failed.out);
     assert_eq!(last_line(&failed), "1 passed, 1 failed");
 }
 
@@ -264,6 +266,27 @@ fn diff_compares_two_files() {
     desk.ends(2, &["diff", "a.png", "b.png", "--by", "RelativeRmse(7)"]);
     desk.ends(2, &["diff", "a.png", "b.png", "--by", "Psnr(30)"]);
     desk.ends(2, &["diff", "a.png", "none.png"]);
+    // Alpha is compared where both have it.
+    let write = |name: &str, image: &Image, meaning| tyndall_image::write(&desk.path(name), image, meaning).unwrap();
+    let colour = |channels: usize| Image::filled(16, 16, &[0.5, 0.25, 0.125, 1.0][..channels]);
+    write("rgb.npy", &colour(3), Meaning::Color);
+    write("rgba.npy", &colour(4), Meaning::Color);
+    assert!(desk.ends(0, &["diff", "rgb.npy", "rgba.npy"]).out.contains("only one of them has alpha"));
+    // FLIP sees every layer, refuses what is no colour, and NaN passes on neither side.
+    let flip = |code, a: &str, b: &str| desk.ends(code, &["diff", a, b, "--by", "Flip(mean: 0.01)"]).out;
+    write("two.npy", &colour(2), Meaning::Data);
+    assert!(flip(1, "two.npy", "two.npy").contains("2 channels are no colour"));
+    let layers = |second: f32| Image {
+        layers: 2,
+        height: 8,
+        ..Image::new(16, 16, 3, [vec![0.5; 384], vec![second; 384]].concat())
+    };
+    write("same.npy", &layers(0.5), Meaning::Data);
+    write("other.npy", &layers(0.9), Meaning::Data);
+    assert!(flip(0, "same.npy", "same.npy").contains("FLIP mean 0.0000"));
+    assert!(flip(1, "same.npy", "other.npy").contains("beyond"));
+    write("nan.npy", &layers(f32::NAN), Meaning::Data);
+    assert!(flip(1, "same.npy", "nan.npy").contains("NaN") && flip(1, "nan.npy", "same.npy").contains("NaN"));
     render("1.0", "a.exr");
     assert!(desk.ends(2, &["diff", "a.png", "test.scene.ron"]).err.contains("unknown suffix"));
 }

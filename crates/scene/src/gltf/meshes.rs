@@ -72,6 +72,7 @@ pub(crate) fn mesh(
     };
     let mut mesh =
         Mesh { positions: positions.into_iter().map(Vec3::from_array).collect(), normals: Vec::new(), uvs, triangles };
+    mesh.turn_triangles();
     match attribute(Semantic::Normals) {
         None => {
             budget.take(mesh.triangles.len() * 3)?;

@@ -7,20 +7,20 @@ use tyndall_graph::{Graph, Plan};
 use tyndall_render::Loaded;
 use tyndall_scene::Scene;
 
-use super::{Change, Relation, TestFile};
+use super::{Change, Expectation, TestFile};
 use crate::codes;
 use crate::digest::Digest;
 
-/// What a relation asks of another run must be such as can be asked: the mistakes go to `out`.
+/// What a relation asks of ports of another run must be such as can be asked: the mistakes go to `out`.
 pub fn check_run(
     file: &TestFile,
-    relation: &Relation,
+    expect: &[&Expectation],
     own: (&Loaded, &Plan),
     other: (&Loaded, &Plan),
     out: &mut Diagnostics,
 ) {
-    says_something(file, relation, own.0, other.0, out);
-    for expected in &relation.expect {
+    says_something(file, expect, own.0, other.0, out);
+    for expected in expect {
         let place = file.place(expected.span);
         let Ok(port) = own.0.graph.find(&expected.port, place.clone()) else { continue };
         let (pass, name) = (other.0.graph.pass(port.pass), &expected.port);
@@ -31,7 +31,7 @@ pub fn check_run(
             );
             continue;
         }
-        let size = |plan: &Plan| plan.planned(port).map(|port| plan.resource(port).clone());
+        let size = |plan: &Plan| plan.planned(port).map(|port| *plan.resource(port));
         // The reference on the CPU says what is right at any size.
         if size(own.1) != size(other.1) && !matches!(expected.change, Change::CpuReference(_)) {
             let message =
@@ -43,9 +43,8 @@ pub fn check_run(
 
 /// A relation between a run and the same run once more holds whatever a pass does: then its settings say what is the case
 /// anyway.
-fn says_something(file: &TestFile, relation: &Relation, own: &Loaded, other: &Loaded, out: &mut Diagnostics) {
-    let vacuous = |expected: &&super::Expectation| expected.change.holds_of_the_same_run();
-    let Some(expected) = relation.expect.iter().find(vacuous) else { return };
+fn says_something(file: &TestFile, expect: &[&Expectation], own: &Loaded, other: &Loaded, out: &mut Diagnostics) {
+    let Some(expected) = expect.iter().find(|expected| expected.change.holds_of_the_same_run()) else { return };
     if changes(&own.graph, &other.graph) || told(own.scene.as_ref()) != told(other.scene.as_ref()) {
         return;
     }

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Mutant, PassFindings, Verdict};
+use super::{Mutant, Nearest, PassFindings, Verdict};
 
 /// Counts of mutants.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -106,9 +106,10 @@ fn told(verdict: &Verdict) -> String {
         Verdict::Untested => "no test runs this pass".to_owned(),
         Verdict::Unreached => "no test reaches it: whatever stands there, no port comes out different".to_owned(),
         Verdict::SameBits => "no port comes out different by a bit, though something else there would show".to_owned(),
-        Verdict::Tolerated { excess, check } => {
+        Verdict::Tolerated(Some(Nearest { excess, check })) => {
             format!("within tolerances: the nearest is at {excess:.2} of what {check} allows")
         }
+        Verdict::Tolerated(None) => "a port comes out different, and no check asks by how much".to_owned(),
     }
 }
 

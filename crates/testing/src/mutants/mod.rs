@@ -106,13 +106,17 @@ pub enum Verdict {
     Unreached,
     /// No port comes out different, though something else in the place would show.
     SameBits,
-    /// Ports come out different, within what tests allow.
-    Tolerated {
-        /// The largest part of a tolerance that was used up.
-        excess: f64,
-        /// By what.
-        check: String,
-    },
+    /// Ports come out different, within what tests allow; and the check that came nearest, if any asks by how much.
+    Tolerated(Option<Nearest>),
+}
+
+/// The check that came nearest to a failure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Nearest {
+    /// The part of its tolerance that was used up.
+    pub excess: f64,
+    /// What it asks of which port of which test.
+    pub check: String,
 }
 
 impl Verdict {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use tyndall_shader::{Linked, Mutation};
 
-use super::{Trouble, Verdict};
+use super::{Nearest, Trouble, Verdict};
 use crate::options::Options;
 use crate::outcome::{Outcome, Problem};
 use crate::session::Session;
@@ -39,10 +39,7 @@ pub(super) struct Trials<'a> {
 enum Answer {
     Verdict(Verdict),
     /// Nothing; and what came nearest to a failure.
-    Unnoticed {
-        excess: f64,
-        check: String,
-    },
+    Unnoticed(Option<Nearest>),
     Invalid,
 }
 
@@ -57,7 +54,7 @@ impl Trials<'_> {
             self.session.substitute(Substitute::new(self.pass, file, self.fingerprint, right));
             let answer = self.ask(false);
             let changed = self.session.restore();
-            if !changed && matches!(answer, Answer::Unnoticed { .. } | Answer::Verdict(Verdict::Untested)) {
+            if !changed && matches!(answer, Answer::Unnoticed(_) | Answer::Verdict(Verdict::Untested)) {
                 return Ok(iterations);
             }
         }
@@ -74,10 +71,8 @@ impl Trials<'_> {
         let changed = self.session.restore();
         let mut unnoticed = |answer: &Answer| match answer {
             Answer::Verdict(verdict) => Some(verdict.clone()),
-            Answer::Unnoticed { excess, check } if changed => {
-                Some(Verdict::Tolerated { excess: *excess, check: check.clone() })
-            }
-            Answer::Unnoticed { .. } => Some(self.idle(file, shader, mutation, iterations)),
+            Answer::Unnoticed(nearest) if changed => Some(Verdict::Tolerated(nearest.clone())),
+            Answer::Unnoticed(_) => Some(self.idle(file, shader, mutation, iterations)),
             Answer::Invalid => None,
         };
         let Some(without_goldens) = unnoticed(&alone) else { return Ok(Trial::Invalid) };
@@ -99,7 +94,7 @@ impl Trials<'_> {
         let answer = self.ask(false);
         let changed = self.session.restore();
         match answer {
-            Answer::Unnoticed { .. } if !changed => Verdict::Unreached,
+            Answer::Unnoticed(_) if !changed => Verdict::Unreached,
             _ => Verdict::SameBits,
         }
     }
@@ -110,7 +105,7 @@ impl Trials<'_> {
             return Answer::Verdict(Verdict::Untested);
         }
         let options = Options { without_goldens: !goldens, until_failure: true, ..Options::default() };
-        let mut nearest = (0.0, "nothing".to_owned());
+        let mut nearest: Option<Nearest> = None;
         let mut killed = None;
         for test in self.tests {
             let outcome = self.session.run(test, &options);
@@ -130,14 +125,14 @@ impl Trials<'_> {
                 continue;
             }
             for (excess, check) in self.excesses(&outcome) {
-                if excess.is_finite() && excess > nearest.0 {
-                    nearest = (excess, check);
+                if excess.is_finite() && excess > nearest.as_ref().map_or(0.0, |nearest| nearest.excess) {
+                    nearest = Some(Nearest { excess, check });
                 }
             }
         }
         match killed {
             Some(test) => Answer::Verdict(Verdict::Killed { test }),
-            None => Answer::Unnoticed { excess: nearest.0, check: nearest.1 },
+            None => Answer::Unnoticed(nearest),
         }
     }
 

@@ -238,6 +238,17 @@ mod tests {
     }
 
     #[test]
+    fn alpha_counts_and_flip_sees_what_a_person_sees() {
+        let of_alpha = |alpha| Picture::new(Image::filled(4, 4, &[0.5, 0.5, 0.25, alpha]), Class::Color);
+        let light = Metric::RelativeRmse { tolerance: 0.01 };
+        assert!(of_metric(&of_alpha(0.5), &of_alpha(1.0), light).iter().all(|excess| *excess > 4.0));
+        let grey = |code: f32| Picture::new(Image::filled(16, 16, &[code / 255.0; 3]), Class::Display);
+        let seen = Metric::Flip { mean: 0.005, p99: Some(0.05) };
+        assert!(of_metric(&grey(129.0), &grey(128.0), seen).iter().all(|excess| *excess < 1.0));
+        assert!(of_metric(&grey(255.0), &grey(0.0), seen).iter().all(|excess| *excess > 4.0));
+    }
+
+    #[test]
     fn no_two_differences_look_alike() {
         let rises = |excesses: &[f64]| {
             let brightness: Vec<f32> = excesses.iter().map(|excess| heat(*excess, 1e4).iter().sum()).collect();

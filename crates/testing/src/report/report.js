@@ -36,6 +36,7 @@ function show(index) {
 }
 
 function open_target() {
+    if (!location.hash) return;
     const index = ports.findIndex((port) => port.id === decodeURIComponent(location.hash.slice(1)));
     if (index >= 0) show(index);
 }

@@ -278,3 +278,20 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {{
     let outcome = chain.plain();
     assert_eq!((outcome.guilty(), outcome.inherited()), (vec!["pair", "one"], vec!["other"]), "{}", outcome.text());
 }
+
+/// What a port is held against is under suspicion only where it may be so far off: not where a check of its own is stricter
+/// than what was found.
+#[test]
+fn what_is_held_strictly_is_not_suspected() {
+    let chain = Chain::new();
+    let suspects = |held: &str| {
+        let taps = format!("{held}, \"five.*\": (properties: [Equal(port: \"aside.result\", by: RelativeRmse(1e-5))])");
+        chain.test(&taps, "");
+        let outcome = chain.plain();
+        assert_eq!(outcome.guilty().last(), Some(&"five"), "{}", outcome.text());
+        let of_five = outcome.suspicions.iter().find(|suspicion| suspicion.pass == "five");
+        of_five.is_some_and(|suspicion| suspicion.unheld.contains(&"aside.result".to_owned()))
+    };
+    assert!(suspects("\"aside.*\": (properties: [Finite])"));
+    assert!(!suspects("\"aside.*\": (golden: RelativeRmse(1e-4))"));
+}

@@ -223,17 +223,23 @@ fn relations_between_runs() {
             "relations: [(about: \"twice the factor\", runs: [{{ \"twice.factor\": (2.0, 2.0, 2.0) }}], expect: {{ \"twice.scaled\": Scaled(factor: {factor:?}, by: RelativeRmse(1e-6)), \"five.result\": Same(by: Exact) }})]"
         )
     };
-    let run = |factor| {
+    let run = |factor, tap: Option<&str>| {
         chain.test("\"start.*\": (properties: [Finite])", &relation(factor));
         let search = vec![tyndall_plugin::SearchPath { path: chain.path("plugins"), required: true }];
         let mut session = tyndall_testing::Session::new(vec![tyndall_core::plugin], search, None).unwrap();
-        let options = Options { without_goldens: true, ..Options::default() };
+        let options = Options { without_goldens: true, tap: tap.map(str::to_owned), ..Options::default() };
         session.run(&chain.path("chain.test.ron"), &options)
     };
-    let right = run(2.0);
+    let right = run(2.0, None);
     assert!(right.passed() && right.relations.len() == 2, "{}", right.text());
-    let wrong = run(3.0);
+    let wrong = run(3.0, None);
     assert!(!wrong.passed() && wrong.text().contains("twice the factor"), "{}", wrong.text());
+    assert!(wrong.text().contains("first diverging pass: `twice` (core.scale)"), "{}", wrong.text());
+    // Of a relation only what is about the chosen ports is asked.
+    let other = run(3.0, Some("five.*"));
+    assert!(other.passed() && other.relations.len() == 1, "{}", other.text());
+    let none = run(3.0, Some("start.*"));
+    assert!(none.passed() && none.relations.is_empty(), "{}", none.text());
 }
 
 #[test]
@@ -260,4 +266,54 @@ fn nothing_is_blessed_that_was_made_from_what_is_not() {
     let outcome = chain.run(&Options { tap: Some("four.result".to_owned()), ..bless() });
     says(&outcome, "not blessed: four.result: it is made from what `two` writes");
     assert!(outcome.blessed.is_empty(), "{:?}", outcome.blessed);
+}
+
+/// A first golden can be blessed by itself: that those before it are missing says nothing against them.
+#[test]
+fn the_first_goldens_can_be_blessed_one_by_one() {
+    let chain = Chain::new();
+    fs::remove_dir_all(chain.path("chain.goldens")).unwrap();
+    let three = chain.run(&Options { tap: Some("three.result".to_owned()), ..bless() });
+    assert_eq!(three.blessed.len(), 1, "{}", three.text());
+    assert!(chain.path("chain.goldens/three.result.exr").exists());
+}
+
+/// A blessing that was cut off leaves a temporary file, which the next one drops; what is somebody's own stays, and the
+/// message does not say that blessing would drop it.
+#[test]
+fn what_an_interrupted_blessing_leaves_is_dropped_by_the_next() {
+    let chain = Chain::new();
+    chain.put("chain.goldens/.tyndall-Kx3q.part", "half a picture");
+    says(&chain.plain(), "or bless to drop it");
+    assert!(chain.run(&bless()).passed());
+    chain.put("chain.goldens/NOTES.md", "mine");
+    let text = chain.plain().text();
+    assert!(text.contains("NOTES.md` lies among goldens") && !text.contains("bless to drop it"), "{text}");
+}
+
+#[test]
+fn a_golden_that_may_not_be_written_is_not_blessed_and_nobody_elses_fault() {
+    let chain = Chain::new();
+    let path = chain.path("chain.goldens/three.result.exr");
+    let mut permissions = fs::metadata(&path).unwrap().permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(&path, permissions).unwrap();
+    chain.set_line("three", HALF);
+    let outcome = chain.run(&Options { tap: Some("three.result".to_owned()), ..bless() });
+    says(&outcome, "not blessed: three.result");
+    assert!(outcome.text().contains("read-only") && outcome.exit_code() == 1, "{}", outcome.text());
+}
+
+/// In another size than its own, what a test states for its size is left out, and told; in its own size it is asked.
+#[test]
+fn what_is_not_asked_in_another_size_is_told() {
+    let chain = Chain::new();
+    chain.test("\"start.*\": (golden: Exact, properties: [Finite, Mean(value: 0.001, within: 0.0)])", "");
+    let run = |size| chain.run(&Options { size, tap: Some("start.result".to_owned()), ..Options::default() });
+    let small = run(Some((9, 7)));
+    assert!(small.passed(), "{}", small.text());
+    assert_eq!(small.left_out, ["in another size than its own: goldens, means"]);
+    let own = run(Some((24, 16)));
+    assert!(!own.passed() && own.left_out.is_empty(), "{}", own.text());
+    says(&own, "the mean is");
 }

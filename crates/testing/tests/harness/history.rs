@@ -115,6 +115,22 @@ fn what_the_frame_before_brings_is_inherited() {
     assert_eq!(states(&outcome, "source"), [Passed; 4]);
     assert_eq!(states(&outcome, "mix"), [Passed, Inherited, Inherited, Inherited]);
     assert_eq!(states(&outcome, "grade"), [Guilty, Inherited, Inherited, Inherited]);
+    // And each golden knows of the shader that changed, before it or in frames before.
+    assert!(outcome.ports.iter().all(|port| port.stale.is_empty() == (port.pass == "source")), "{}", outcome.text());
+    assert!(trail.run(&Options::default()).ports.iter().all(|port| port.stale.is_empty()));
+}
+
+/// Alone a pass is fed from goldens, and what follows in the graph and in time changes nothing of that.
+#[test]
+fn alone_a_pass_reads_goldens_and_not_the_frame_before() {
+    let trail = Trail::new();
+    let isolate = Options { isolate: true, ..Options::default() };
+    let right = trail.run(&isolate);
+    assert!(right.passed(), "{}", right.text());
+    assert_eq!(right.left_out.len(), 3, "`mix` in frames 1 to 3: {:?}", right.left_out);
+    trail.set("source", "vec3(0.5)");
+    let outcome = trail.run(&isolate);
+    assert_eq!((outcome.guilty(), outcome.inherited().len()), (vec!["source"], 0), "{}", outcome.text());
 }
 
 /// A mistake that begins in a later frame is laid at the pass that makes it, and what follows it in time inherits.
@@ -142,4 +158,79 @@ fn the_last_frame_alone_names_its_own_pass() {
     let outcome = trail.broken("mix", "select(0.0, 0.1, now == 3.0)");
     assert_eq!(states(&outcome, "mix"), [Passed, Passed, Passed, Guilty], "{}", outcome.text());
     assert_eq!(states(&outcome, "grade"), [Passed, Passed, Passed, Inherited]);
+}
+
+/// Two graphs that differ in nothing but whether a parameter is the number of the frame or its time share no result.
+#[test]
+fn a_frame_and_its_time_are_told_apart() {
+    let trail = Trail::new();
+    let graph = |name: &str| {
+        GRAPH.replace("\"before\": \"grade.result\"", "\"before\": \"source.result\"").replace("$frame", name)
+    };
+    for name in ["frame", "time"] {
+        trail.put(&format!("{name}.graph.ron"), &graph(&format!("${name}")));
+        let test = format!(
+            "(version: 1, graph: \"{name}.graph.ron\", size: (12, 8), frames: [12], taps: {{ \"source.*\": (golden: Exact) }})"
+        );
+        trail.put(&format!("{name}.test.ron"), &test);
+    }
+    let search = vec![SearchPath { path: trail.folder.path().join("plugins"), required: true }];
+    let mut session = Session::new(vec![tyndall_core::plugin], search, None).unwrap();
+    let mut run = |name: &str, bless| {
+        let path = trail.folder.path().join(format!("{name}.test.ron"));
+        assert!(session.run(&path, &Options { bless, ..Options::default() }).passed());
+        std::fs::read(trail.folder.path().join(format!("{name}.goldens/source.result.exr"))).unwrap()
+    };
+    let [frame, time] = ["frame", "time"].map(|name| run(name, true));
+    assert!(frame != time, "frame 12 is half a second");
+    assert_eq!(["frame", "time"].map(|name| run(name, false)), [frame, time]);
+}
+
+/// Two manifests that list the ports of one shader in another order: neither gets what the other rendered.
+#[test]
+fn manifests_that_list_ports_otherwise_share_no_result() {
+    let desk = tempfile::tempdir().unwrap();
+    let put = |name: &str, text: &str| {
+        let path = desk.path().join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
+    };
+    let shader = "var left: texture_storage_2d<rgba32float, write>;
+var right: texture_storage_2d<rgba32float, write>;
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    textureStore(left, id.xy, vec4(0.25, f32(id.x), 0.0, 1.0));
+    textureStore(right, id.xy, vec4(0.75, f32(id.y), 0.0, 1.0));
+}
+";
+    let port = |name: &str| format!("\"{name}\": (about: \"a picture\", size: Frame(1.0))");
+    for (folder, ports) in [("one", ["left", "right"]), ("two", ["right", "left"])] {
+        put(&format!("{folder}/plugins/pair/pair.wgsl"), shader);
+        let ports = ports.map(port).join(", ");
+        let manifest = format!(
+            "(name: \"pair\", version: \"0.1.0\", about: \"two pictures\", passes: {{ \"both\": (about: \"both\", shader: \"pair.wgsl\", ports: {{ {ports} }}) }})"
+        );
+        put(&format!("{folder}/plugins/pair/plugin.ron"), &manifest);
+        put(
+            &format!("{folder}/pair.graph.ron"),
+            "(version: 1, size: (8, 8), passes: { \"p\": (use: \"pair.both\") }, outputs: { \"left\": \"p.left\" })",
+        );
+        put(
+            &format!("{folder}/pair.test.ron"),
+            "(version: 1, graph: \"pair.graph.ron\", size: (8, 8), taps: { \"*\": (golden: Exact) })",
+        );
+    }
+    let session = || Session::new(vec![tyndall_core::plugin], Vec::new(), None).unwrap();
+    let run = |session: &mut Session, folder: &str, bless| {
+        session.run(&desk.path().join(folder).join("pair.test.ron"), &Options { bless, ..Options::default() })
+    };
+    for folder in ["one", "two"] {
+        let blessed = run(&mut session(), folder, true);
+        assert!(blessed.passed() && blessed.blessed.len() == 2, "{}", blessed.text());
+    }
+    let mut together = session();
+    for folder in ["one", "two"] {
+        let outcome = run(&mut together, folder, false);
+        assert!(outcome.passed(), "{folder}: {}", outcome.text());
+    }
 }

@@ -269,3 +269,51 @@ fn a_report_is_written_whole_or_not_at_all() {
     fs::write(mine.join("index.html"), "<h1>mine</h1>").unwrap();
     assert!(Report::begin(&mine).unwrap_err().to_string().contains("holds other files"));
 }
+
+/// A test that stops before anything runs has a page all the same: of a mistake in its file, say.
+#[test]
+fn a_test_that_could_not_run_has_a_page() {
+    let desk = tempfile::tempdir().unwrap();
+    let chain = Chain::new();
+    chain.test("\"nobody.*\": (golden: Exact)", "");
+    let mut outcome = chain.run(&Options { for_report: true, ..Options::default() });
+    assert_eq!(outcome.exit_code(), 2);
+    let report = Report::begin(&desk.path().join("report")).unwrap();
+    report.add(&mut outcome).unwrap();
+    let index = report.finish("an adapter", &[outcome], &[]).unwrap();
+    let pages: Vec<PathBuf> =
+        fs::read_dir(index.parent().unwrap()).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let told = pages.iter().filter(|page| page.extension().is_some_and(|suffix| suffix == "html"));
+    let texts: Vec<String> = told.map(|page| fs::read_to_string(page).unwrap()).collect();
+    assert!(texts.len() == 2 && texts.iter().any(|text| text.contains("matches no port of the graph")), "{pages:?}");
+}
+
+/// A page is read from its beginning: the verdict and the graph come first, whatever is open below.
+#[test]
+fn a_page_opens_at_its_beginning() {
+    let desk = tempfile::tempdir().unwrap();
+    let chain = Chain::new();
+    let graph = fs::read_to_string(chain.path("chain.graph.ron")).unwrap();
+    let twice = graph.replace(
+        "\"aside\": (use",
+        "\"twice\": (use: \"core.scale\", inputs: { \"input\": \"five.result\" }), \"aside\": (use",
+    );
+    chain.put("chain.graph.ron", &twice.replace("outputs: {", "outputs: { \"twice\": \"twice.scaled\","));
+    let relation = "relations: [(about: \"three times\", runs: [{ \"twice.factor\": (2.0, 2.0, 2.0) }], expect: { \"twice.scaled\": Scaled(factor: 3.0, by: RelativeRmse(1e-6)) })]";
+    chain.test("\"*\": (properties: [Finite])", relation);
+    let mut outcome = chain.run(&Options { for_report: true, without_goldens: true, ..Options::default() });
+    assert_eq!(outcome.guilty(), ["twice"], "{}", outcome.text());
+    let report = Report::begin(&desk.path().join("report")).unwrap();
+    report.add(&mut outcome).unwrap();
+    let index = report.finish("an adapter", &[outcome], &[]).unwrap();
+    let pages = fs::read_dir(index.parent().unwrap()).unwrap().map(|entry| entry.unwrap().path());
+    let page = pages.into_iter().find(|path| path != &index && path.extension().is_some_and(|suffix| suffix == "html"));
+    let mut browser = Browser::open();
+    browser.width(1280);
+    browser.go(&page.unwrap());
+    assert_eq!(browser.evaluate("scrollY"), json!(0));
+    assert_eq!(
+        browser.evaluate("document.querySelectorAll('details.relation[open] input[type=range]').length"),
+        json!(1)
+    );
+}
