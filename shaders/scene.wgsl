@@ -230,10 +230,10 @@ struct ShadowLight {
     across: vec3<f32>,          // unit vector, world: x
     nearness: f32,              // kappa, 1/m
     upward: vec3<f32>,          // unit vector, world: y
-    depth_at_eye: i32,          // triangles between the light and the eye
+    depth_at_eye: i32,          // triangles between the light and the eye, without those that touch it
     axis: vec3<f32>,            // unit vector, world: z
-    first_slice: u32,           // among the slices
-    slices: u32,                // number; 0 where nothing has an edge
+    first_bin: u32,             // among the slices
+    bins: u32,                  // equal parts of the turn about the axis; 0 where there is no light
     pad0: u32,
     pad1: u32,
     pad2: u32,
@@ -248,7 +248,8 @@ struct ShadowLights {
     items: array<ShadowLight>,
 }
 
-// Where the crossings of a slice begin; those of a light's last slice end where one more says.
+// For each light: for each of its bins the number of its first slice, times 2^16, and how many slices it has, which are
+// equal parts of it; then for each slice where its crossings begin, and one more for the end of the last.
 struct ShadowSlices {
     count: u32,
     pad0: u32,
@@ -271,12 +272,12 @@ struct ShadowCrossings {
     items: array<ShadowCrossing>,
 }
 
-// Of a silhouette; it runs counter-clockwise about the axis.
+// Of a silhouette, or of a triangle that touches the eye; it runs counter-clockwise about the axis.
 struct ShadowEdge {
     a: vec3<f32>,               // m, frame of the light
-    step: i32,                  // triangles beyond it less those before it, as the light sees it
+    step: i32,                  // triangles beyond it less those before it, as the light sees it; at the eye the other way round
     b: vec3<f32>,
-    pad: u32,
+    away: f32,                  // of a triangle that touches the eye: z where the axis meets its plane, m, below 0 if the eye is behind; else 0
 }
 
 struct ShadowEdges {

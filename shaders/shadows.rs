@@ -39,13 +39,32 @@ const ROUNDED: f64 = 8.0 / (1 << 24) as f64;
 pub fn facing(source: Source, &[a, b, c]: &Caster) -> i8 {
     let normal = (b - a).cross(c - a);
     let (height, rounded) = match source {
-        Source::At(light) => {
-            let largest = a.abs().max(b.abs()).max(c.abs()).max(light.abs());
-            (normal.dot(light - a), normal.abs().dot(largest))
-        }
-        Source::Along(direction) => (-normal.dot(direction), normal.length()),
+        Source::At(light) => height_above(light, normal, &[a, b, c]),
+        Source::Along(direction) => (-normal.dot(direction), ROUNDED * normal.length()),
     };
-    if height.is_finite() && height.abs() > ROUNDED * rounded { height.signum() as i8 } else { 0 }
+    if height.is_finite() && height.abs() > rounded { height.signum() as i8 } else { 0 }
+}
+
+/// Height of a point above the plane of a triangle with this normal, and what rounding leaves open of it; both times the
+/// normal's length.
+pub fn height_above(point: DVec3, normal: DVec3, &[a, b, c]: &Caster) -> (f64, f64) {
+    let largest = a.abs().max(b.abs()).max(c.abs()).max(point.abs());
+    (normal.dot(point - a), ROUNDED * normal.abs().dot(largest))
+}
+
+/// What is closer to the eye than this may not be seen, m: 16 times what no rasteriser draws (`NEAREST` of
+/// `visibility.wgsl`), as that is measured straight ahead.
+pub const UNSEEN: f64 = 1.6e-5;
+
+/// Whether an edge passes through the eye: closer than it is seen, or than coordinates are rounded.
+pub fn edge_touches(eye: DVec3, [a, b]: [DVec3; 2]) -> bool {
+    // The same whichever end comes first.
+    let (a, b) = if a.to_array() <= b.to_array() { (a, b) } else { (b, a) };
+    let along = b - a;
+    let part = ((eye - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+    let apart = eye - (a + part * along);
+    let largest = a.abs().max(b.abs()).max(eye.abs());
+    apart.length_squared() <= ROUNDED * apart.abs().dot(largest) + UNSEEN * apart.length()
 }
 
 /// The lit intervals of the first `way` metres of a ray, which may be infinite, in order, m.

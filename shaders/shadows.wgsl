@@ -32,6 +32,9 @@ var<storage, read> shadow_edges: ShadowEdges;
 // More than any distance, m, whose products stay finite.
 const BEYOND: f32 = 1e18;
 
+// n/r of edges of which no more is known.
+const ANYWHERE: f32 = 3e38;
+
 // A ray in the frame of a light.
 struct ShadowRay {
     toward: vec2<f32>,          // unit vector: the way of the ray across the axis
@@ -54,15 +57,19 @@ fn shadow_ray(light: ShadowLight, ray: Ray, way: f32) -> ShadowRay {
     let sine = length(across);
     // along the axis every half-plane is the ray's
     let toward = select(vec2<f32>(1.0, 0.0), across / sine, sine > 1e-12);
-    let slice = min(u32(angle_of(toward) * 0.25 * f32(light.slices)), max(light.slices, 1u) - 1u);
-    // without an edge there is no slice
-    let at = select(0u, light.first_slice + slice, light.slices > 0u);
-    let first = shadow_slices.items[at];
-    let end = select(first, shadow_slices.items[select(0u, at + 1u, light.slices > 0u)], light.slices > 0u);
+    let place = angle_of(toward) * 0.25 * f32(light.bins);
+    let bin = min(u32(place), max(light.bins, 1u) - 1u);
+    let slices = shadow_slices.items[light.first_bin + bin];
+    let count = slices & 0xffffu;
+    let within = min(u32((place - f32(bin)) * f32(count)), max(count, 1u) - 1u);
+    let slice = light.first_bin + light.bins + (slices >> 16u) + within;
+    let first = shadow_slices.items[slice];
+    let end = select(first, shadow_slices.items[slice + 1u], light.bins > 0u);
     return ShadowRay(toward, sine, dot(ray.direction, light.axis), light.nearness, min(way, BEYOND), first, end);
 }
 
-// Where the ray passes behind an edge, m, and by how much the depth grows there; BEYOND and 0 where it does not.
+// Where the ray passes behind an edge, m, and by how much the depth grows there; BEYOND and 0 where it does not. What
+// touches the eye hides the light from there on.
 struct Crossing {
     x: f32,
     step: i32,
@@ -81,13 +88,23 @@ fn crossing_of(edge: ShadowEdge, ray: ShadowRay) -> Crossing {
     let z = (side_b * edge.a.z - side_a * edge.b.z) * inverse;
     let from_ray = ray.sine * z - ray.cosine * r;
     let v = ray.sine + ray.nearness * from_ray;
-    let behind = crossed && ahead && from_ray < 0.0 && v > 0.0;
-    return Crossing(select(BEYOND, r / max(v, 1e-30), behind), select(0, select(-edge.step, edge.step, forward), behind));
+    let at_eye = edge.away != 0.0;
+    let hides = select(from_ray < 0.0 && v > 0.0, is_hidden_at_eye(edge, ray, r, from_ray), at_eye);
+    let behind = crossed && ahead && hides;
+    let x = select(r / max(v, 1e-30), 0.0, at_eye);
+    return Crossing(select(BEYOND, x, behind), select(0, select(-edge.step, edge.step, forward), behind));
 }
 
-// Whether all that has n/r = `ratio` or less is crossed at x or farther.
+// Whether the triangle of an edge touches the eye and hides the light from the ray's first metre on. An eye behind it is in
+// its shadow whatever the ray; else a ray that passes behind it is, unless it meets the triangle after all and ends there.
+fn is_hidden_at_eye(edge: ShadowEdge, ray: ShadowRay, r: f32, from_ray: f32) -> bool {
+    let met = edge.away * r / max(ray.sine * edge.away - from_ray, 1e-30);
+    return edge.away < 0.0 || (from_ray < 0.0 && ray.way > 2.0 * met);
+}
+
+// Whether all that has n/r = `ratio` or less is crossed at x or farther. Of what may be anywhere the ratio says nothing.
 fn is_beyond(ratio: f32, ray: ShadowRay, x: f32) -> bool {
-    return x * (ray.sine * ratio - ray.cosine * ray.nearness) <= 1.0;
+    return ratio < ANYWHERE && x * (ray.sine * ratio - ray.cosine * ray.nearness) <= 1.0;
 }
 
 // Crossings ahead, in order, each with its number; BEYOND where there is none.

@@ -52,7 +52,7 @@ fn stencil_of_surface(ray: ShadowRay) -> i32 {
     var i = ray.first;
     loop {
         let crossing = crossing_of(shadow_edges.items[shadow_crossings.items[min(i, max(ray.end, 1u) - 1u)].edge], ray);
-        let counts = i < ray.end && crossing.x < ray.way;
+        let counts = i < ray.end && crossing.x > 0.0 && crossing.x < ray.way;
         facing += select(0, 1, counts && crossing.step > 0);
         averted += select(0, 1, counts && crossing.step < 0);
         i++;
@@ -76,7 +76,7 @@ fn next_plane(ray: ShadowRay, last: Drawn) -> Drawn {
         let its_place = length(0.5 * (edge.a + edge.b));
         let follows = its_place < last.place || (its_place == last.place && edge_number > last.edge);
         let precedes = its_place > place || (its_place == place && edge_number < number);
-        let takes = i < ray.end && crossing.x < ray.way && follows && precedes;
+        let takes = i < ray.end && crossing.x > 0.0 && crossing.x < ray.way && follows && precedes;
         x = select(x, crossing.x, takes);
         step = select(step, crossing.step, takes);
         place = select(place, its_place, takes);

@@ -6,6 +6,7 @@
 #import shadows
 #import unfinished
 #import "few_nodes.wgsl"
+#import "bound.wgsl"
 
 override nodes: u32 = 12;
 
@@ -31,22 +32,30 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var found = LitPart(vec2<f32>(0.0), start_of_walk(shadow_lights.items[0], shadow), false);
     var cursor = Cursor(0u, 0u, 0.0);
     var whole = true;
+    var bound = unbounded(sum);
     loop {
-        if whole {
+        if whole && bound.stage == LIT {
             found = next_lit_part(shadow, found.walk);
+            bound = with_dark_before(bound, found.part);
         }
-        let piece = airlight_of_part(cursor, lights.items[light], medium, phase, ray, found.part, shadow.way, nodes);
-        sum += piece.radiance;
+        let part = part_of_stage(bound, found.part, shadow.way);
+        let piece = airlight_of_part(cursor, lights.items[light], medium, phase, ray, part, shadow.way, nodes, bound.stage == DARK);
+        sum += select(vec3<f32>(0.0), piece.radiance, bound.stage == LIT);
+        bound.sum += select(piece.radiance, vec3<f32>(0.0), bound.stage == LIT);
         cursor = piece.next;
         whole = cursor.light > light;
         if whole {
             let at_end = found.walk.x >= shadow.way;
-            if at_end && found.walk.depth <= 0 {
+            if at_end && found.walk.depth <= 0 && bound.stage == LIT {
                 lit_bits += bit_of_light(light);
             }
-            light += select(0u, 1u, at_end);
+            sum = select(sum, min(sum, bound.sum), bound.stage == WHOLE);
+            bound = next_stage(bound, sum, at_end, nodes);
+            let done = at_end && bound.stage == LIT;
+            light += select(0u, 1u, done);
             cursor = Cursor(light, 0u, 0.0);
-            if at_end {
+            if done {
+                bound = unbounded(sum);
                 shadow = shadow_ray(shadow_lights.items[light], ray, way);
                 found.walk = start_of_walk(shadow_lights.items[light], shadow);
             }

@@ -315,8 +315,8 @@ impl Bench {
         }
         self.plot(
             "lights",
-            ("Lights", "A box: GPU time of a frame"),
-            [("lights", Unit::Count), ("GPU time", Unit::Milliseconds)],
+            ("Lights", "A box: time of the pass `air`"),
+            [("lights", Unit::Count), ("time", Unit::Milliseconds)],
             None,
             &points,
         );
@@ -357,8 +357,8 @@ impl Bench {
         }
         self.plot(
             "overlap",
-            ("Overlapping shadows", "Exact shadow planes of boxes: GPU time of a frame"),
-            [("boxes", Unit::Count), ("GPU time", Unit::Milliseconds)],
+            ("Overlapping shadows", "Exact shadow planes of boxes: time of the pass `air`"),
+            [("boxes", Unit::Count), ("time", Unit::Milliseconds)],
             None,
             &points,
         );

@@ -271,14 +271,14 @@ pub struct ShadowLight {
     pub nearness: f32,
     /// Unit vector, world.
     pub upward: [f32; 3],
-    /// Triangles between the light and the eye.
+    /// Triangles between the light and the eye, without those that touch it.
     pub depth_at_eye: i32,
     /// Unit vector, world, from the light to the eye.
     pub axis: [f32; 3],
     /// Among the shadow slices.
-    pub first_slice: u32,
-    /// Number of slices; 0 where there is no edge.
-    pub slices: u32,
+    pub first_bin: u32,
+    /// Equal parts of the turn about the axis.
+    pub bins: u32,
     /// 0.
     pub pad0: u32,
     /// 0.
@@ -303,10 +303,10 @@ pub struct ShadowCrossing {
 pub struct ShadowEdge {
     /// m, in the frame of the light.
     pub a: [f32; 3],
-    /// Triangles beyond it less those before it.
+    /// Triangles beyond it less those before it; of a triangle that touches the eye the other way round.
     pub step: i32,
     /// m, in the frame of the light.
     pub b: [f32; 3],
-    /// 0.
-    pub pad: u32,
+    /// Where the axis meets the plane of a triangle that touches the eye, m from the eye, below 0 before it; else 0.
+    pub away: f32,
 }

@@ -50,10 +50,10 @@ fn structs_match_the_shader() {
     same!(structs, Object { material, casts_shadow, pad0, pad1 });
     same!(structs, Material { diffuse, texture, specular, shininess, lobe, pad0, pad1, pad2 });
     same!(structs, Texture { offset, width, height, wrap });
-    same!(structs, ShadowLight { across, nearness, upward, depth_at_eye, axis, first_slice, slices, pad0, pad1, pad2 });
+    same!(structs, ShadowLight { across, nearness, upward, depth_at_eye, axis, first_bin, bins, pad0, pad1, pad2 });
     same!(structs, OccluderNode { low, first, high, triangles, skip, pad0, pad1, pad2 });
     same!(structs, ShadowCrossing { nearest, edge });
-    same!(structs, ShadowEdge { a, step, b, pad });
+    same!(structs, ShadowEdge { a, step, b, away });
     same!(structs, HeightFog { base_height, falloff, pad0, pad1 });
     for (name, expected) in [("Background", size_of::<Background>()), ("Ambient", size_of::<Ambient>())] {
         let (members, size) = &structs[name];

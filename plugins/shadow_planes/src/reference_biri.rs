@@ -9,7 +9,7 @@ use tyndall_shaders::airlight::airlight;
 use tyndall_shaders::lights::lit_bit;
 use tyndall_shaders::ray::{Ray, ray_of_pixel};
 use tyndall_shaders::scene::{Caster, Light};
-use tyndall_shaders::shadows::{Source, facing};
+use tyndall_shaders::shadows::{Source, edge_touches, facing};
 
 /// What eight bits hold.
 const STENCIL_MAX: i32 = 255;
@@ -38,7 +38,8 @@ pub(crate) fn biri(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, 
     let size = input.size("radiance")?;
     let depth = input.input("depth")?;
     let stencil = input.params.get("stencil") == Some(&ParamValue::Bool(true));
-    let planes: Vec<Vec<Plane>> = scene.lights.iter().map(|light| silhouette(light, &scene.casters)).collect();
+    let eye = scene.camera.position;
+    let planes: Vec<Vec<Plane>> = scene.lights.iter().map(|light| silhouette(light, &scene.casters, eye)).collect();
     let (mut radiance, mut lit) = (Vec::new(), Vec::new());
     for y in 0..size[1] {
         for x in 0..size[0] {
@@ -114,8 +115,9 @@ fn crossed(light: &Light, planes: &[Plane], ray: &Ray, way: f64) -> Vec<Crossed>
     crossed
 }
 
-/// The edges with more triangles on one side than on the other. Corners at one position are one vertex.
-fn silhouette(light: &Light, casters: &[Caster]) -> Vec<Plane> {
+/// The edges with more triangles on one side than on the other, but for those that pass through the eye. Corners at one
+/// position are one vertex.
+fn silhouette(light: &Light, casters: &[Caster], eye: DVec3) -> Vec<Plane> {
     let mut edges: BTreeMap<[[u64; 3]; 2], Plane> = BTreeMap::new();
     for triangle in casters {
         let facing = i32::from(facing(Source::of(light), triangle));
@@ -128,5 +130,5 @@ fn silhouette(light: &Light, casters: &[Caster]) -> Vec<Plane> {
             plane.excess += if forward { facing } else { -facing };
         }
     }
-    edges.into_values().filter(|plane| plane.excess != 0).collect()
+    edges.into_values().filter(|plane| plane.excess != 0 && !edge_touches(eye, [plane.a, plane.b])).collect()
 }

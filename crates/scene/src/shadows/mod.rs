@@ -7,13 +7,15 @@
 //! angle about the axis from light to eye, and the number at the eye are all that is needed, and the count is exact
 //! whatever overlaps, nests, intersects or is open. `shaders/shadows.wgsl` walks them.
 
+mod eye;
 mod silhouette;
 mod slices;
 mod spans;
 
 use glam::DVec3;
-use tyndall_shaders::shadows::Source;
+use tyndall_shaders::shadows::{Source, edge_touches};
 
+use self::eye::{AtEye, EdgesAtEye};
 use self::silhouette::{Casters, SilhouetteEdge};
 use self::slices::{LightFrame, PlacedEdge};
 use crate::encode::list;
@@ -56,7 +58,8 @@ impl Shadows {
         }
         let eye = frame.camera.position.as_vec3().as_dvec3();
         self.lights.truncate(frame.lights.len());
-        let (mut lights, mut starts, mut crossings, mut edges) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let edges_at_eye = EdgesAtEye::of(eye, &self.positions, &self.casters.triangles);
+        let mut lists = Lists::default();
         for (index, light) in frame.lights.iter().enumerate() {
             let source = source(light);
             if self.lights.get(index).is_none_or(|lit| lit.source != source) {
@@ -65,31 +68,59 @@ impl Shadows {
                 self.lights.truncate(index);
                 self.lights.push(lit);
             }
-            lights.push(self.slices(index, eye, &mut starts, &mut crossings, &mut edges));
+            let share = (slices::CROSSINGS_MAX - lists.crossings.len()) / (frame.lights.len() - index);
+            let light = self.append(index, eye, &edges_at_eye, share, &mut lists);
+            lists.lights.push(light);
         }
-        [list(lights.into_iter()), list(starts.into_iter()), list(crossings.into_iter()), list(edges.into_iter())]
+        lists.encode()
     }
 
-    fn slices(
+    /// A light, whose edges, slices and crossings, about so many at most, the lists grow by.
+    fn append(
         &self,
         light: usize,
         eye: DVec3,
-        starts: &mut Vec<u32>,
-        crossings: &mut Vec<ShadowCrossing>,
-        edges: &mut Vec<ShadowEdge>,
+        edges_at_eye: &EdgesAtEye,
+        most: usize,
+        lists: &mut Lists,
     ) -> ShadowLight {
         let Lit { source, facing, silhouette } = &self.lights[light];
         let Some(frame) = LightFrame::new(*source, eye) else { return ShadowLight::default() };
         let places: Vec<DVec3> = self.positions.iter().map(|position| frame.place(*position)).collect();
-        let depth_at_eye = frame.depth_at_eye(&places, &self.casters.triangles, facing);
-        let placed: Vec<PlacedEdge> = silhouette.iter().filter_map(|edge| PlacedEdge::of(edge, &places)).collect();
-        let count = slices::slice_count(&placed);
-        let encoded = frame.encode(depth_at_eye, starts.len(), count as u32);
-        if count > 0 {
-            slices::sort(&frame, &placed, count, edges.len() as u32, starts, crossings);
-        }
-        edges.extend(placed.iter().map(PlacedEdge::encode));
-        encoded
+        let at_eye = AtEye::of(&frame, (&self.positions, &places), &self.casters.triangles, facing, edges_at_eye);
+        let passes_eye = |edge: &SilhouetteEdge| {
+            !edges_at_eye.is_empty() && edge_touches(eye, edge.vertices.map(|vertex| self.positions[vertex as usize]))
+        };
+        let seen = silhouette.iter().filter(|edge| !passes_eye(edge));
+        let placed = seen.filter_map(|edge| PlacedEdge::of(edge, &places));
+        let placed: Vec<PlacedEdge> = placed.chain(at_eye.touching).collect();
+        let (borders, spans) = slices::lay_out(&frame, &placed, lists.edges.len() as u32, most);
+        let first_bin = lists.starts.len() as u32;
+        slices::sort(&borders, &spans, &mut lists.starts, &mut lists.crossings);
+        lists.edges.extend(placed.iter().map(PlacedEdge::encode));
+        let bins = borders.bins.len() as u32 - 1;
+        ShadowLight { first_bin, bins, ..frame.encode(at_eye.depth) }
+    }
+}
+
+/// What becomes [`SHADOW_DATA`].
+#[derive(Default)]
+struct Lists {
+    lights: Vec<ShadowLight>,
+    /// Of bins and slices.
+    starts: Vec<u32>,
+    crossings: Vec<ShadowCrossing>,
+    edges: Vec<ShadowEdge>,
+}
+
+impl Lists {
+    fn encode(self) -> [Vec<u8>; 4] {
+        [
+            list(self.lights.into_iter()),
+            list(self.starts.into_iter()),
+            list(self.crossings.into_iter()),
+            list(self.edges.into_iter()),
+        ]
     }
 }
 

@@ -2,7 +2,8 @@
 //!
 //! Every view ray and the light span a half-plane that begins at that axis, so an angle about the axis says which edges a
 //! ray can cross: those that span the angle. A slice is a range of angles and lists the edges that span a part of it, in
-//! the order in which a ray crosses them.
+//! the order in which a ray crosses them. Slices are narrow where edges begin and end, and wide elsewhere: the turn is
+//! divided into equal bins, and each bin into equal slices, the more the more edges end in it.
 //!
 //! Edges stand in the frame of the light: x and y across the axis, z along it from the light to the eye, the eye at the
 //! origin, m. A light at the distance l has the nearness κ = 1/l, a sun 0. As the light sees it, a point is in the
@@ -49,31 +50,17 @@ impl LightFrame {
         self.world_from_light.transpose() * (point - self.eye)
     }
 
-    /// How many triangles there are between the light and the eye.
-    ///
-    /// It must agree with what rays count from here on, so it asks of each edge of a triangle on which side of it the axis
-    /// passes, as [`Turning`] does, and of the triangle which way it faces, and nothing else.
-    pub(crate) fn depth_at_eye(&self, places: &[DVec3], triangles: &[[u32; 3]], facing: &[i8]) -> i32 {
-        let depth = |(triangle, facing): (&[u32; 3], &i8)| {
-            let [a, b, c] = triangle.map(|vertex| places[vertex as usize]);
-            let turns = [(a, b), (b, c), (c, a)].map(|(from, to)| Turning::of(from, to).left);
-            if *facing == 0 || turns[0] != turns[1] || turns[1] != turns[2] {
-                return 0;
-            }
-            // Beyond the eye, or in its plane?
-            let normal = (b - a).cross(c - a);
-            let beyond = f64::from(*facing) * normal.dot(a) / normal.length();
-            let size = a.length().max(b.length()).max(c.length());
-            if beyond <= TOUCHING * size {
-                return 0;
-            }
-            i32::from(*facing) * if turns[0] { -1 } else { 1 }
-        };
-        triangles.iter().zip(facing).map(depth).sum()
+    pub(crate) fn eye(&self) -> DVec3 {
+        self.eye
     }
 
-    /// The light's part of the encoded lists, which grow by it.
-    pub(crate) fn encode(&self, depth_at_eye: i32, first_slice: usize, slices: u32) -> ShadowLight {
+    /// From the light to the eye, a unit vector.
+    pub(crate) fn axis(&self) -> DVec3 {
+        self.world_from_light.z_axis
+    }
+
+    /// The light's part of the encoded lists, but for where the rest stands in them.
+    pub(crate) fn encode(&self, depth_at_eye: i32) -> ShadowLight {
         let floats = crate::encode::floats;
         ShadowLight {
             across: floats(self.world_from_light.x_axis),
@@ -81,8 +68,6 @@ impl LightFrame {
             upward: floats(self.world_from_light.y_axis),
             depth_at_eye,
             axis: floats(self.world_from_light.z_axis),
-            first_slice: first_slice as u32,
-            slices,
             ..Default::default()
         }
     }
@@ -93,18 +78,15 @@ impl LightFrame {
     }
 }
 
-/// The eye is in the plane of a triangle where it is closer to it than this part of the triangle's distance.
-const TOUCHING: f64 = 1e-7;
-
 /// Which way an edge runs about the axis.
-struct Turning {
+pub(crate) struct Turning {
     /// The axis is to the left of the way from its first vertex to its second (x to the right, y up).
-    left: bool,
+    pub left: bool,
 }
 
 impl Turning {
     /// The same for an edge whichever triangle asks, but for the sign: vertices are ordered by where they are.
-    fn of(from: DVec3, to: DVec3) -> Turning {
+    pub(crate) fn of(from: DVec3, to: DVec3) -> Turning {
         let ordered = from.to_array() <= to.to_array();
         let (first, second) = if ordered { (from, to) } else { (to, from) };
         Turning { left: (first.truncate().perp_dot(second.truncate()) >= 0.0) == ordered }
@@ -112,6 +94,7 @@ impl Turning {
 }
 
 /// An edge that runs counter-clockwise about the axis.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedEdge {
     /// m.
     pub a: DVec3,
@@ -119,6 +102,8 @@ pub(crate) struct PlacedEdge {
     pub b: DVec3,
     /// By how many triangles there are more between the light and a ray that crosses the edge from the axis outward.
     step: i32,
+    /// Of a triangle that touches the eye: z where the axis meets its plane, m.
+    away: Option<f32>,
 }
 
 impl PlacedEdge {
@@ -126,16 +111,28 @@ impl PlacedEdge {
     pub(crate) fn of(edge: &SilhouetteEdge, places: &[DVec3]) -> Option<PlacedEdge> {
         let [a, b] = edge.vertices.map(|vertex| places[vertex as usize]);
         let placed = if Turning::of(a, b).left {
-            PlacedEdge { a, b, step: edge.excess }
+            PlacedEdge { a, b, step: edge.excess, away: None }
         } else {
-            PlacedEdge { a: b, b: a, step: -edge.excess }
+            PlacedEdge { a: b, b: a, step: -edge.excess, away: None }
         };
         (a.is_finite() && b.is_finite()).then_some(placed)
     }
 
+    /// The same of a triangle that touches the eye: rays that pass behind it are in the triangle's shadow from the start.
+    pub(crate) fn at_eye(self, away: f64) -> PlacedEdge {
+        let (least, most) = (1e-18, 1e18);
+        let away = away.signum() * away.abs().clamp(least, most);
+        PlacedEdge { step: -self.step, away: Some(away as f32), ..self }
+    }
+
+    /// Whether it is of a triangle that touches the eye.
+    pub(crate) fn is_at_eye(&self) -> bool {
+        self.away.is_some()
+    }
+
     pub(crate) fn encode(&self) -> ShadowEdge {
         let floats = crate::encode::floats;
-        ShadowEdge { a: floats(self.a), step: self.step, b: floats(self.b), ..Default::default() }
+        ShadowEdge { a: floats(self.a), step: self.step, b: floats(self.b), away: self.away.unwrap_or(0.0) }
     }
 }
 
@@ -144,40 +141,35 @@ impl PlacedEdge {
 const SLICES: (usize, usize) = (16, 4096);
 
 /// Crossings of all slices of a light at most, 32 MiB: above that slices are wider.
-const CROSSINGS_MAX: usize = 1 << 22;
+const CROSSINGS_OF_LIGHT: usize = 1 << 22;
+
+/// Crossings of all lights at most, as many as a binding of 128 MiB holds, which every device has, beside its header.
+pub(crate) const CROSSINGS_MAX: usize = (1 << 24) - 2;
 
 /// Fewer crossings are not worth a thread.
 const CROSSINGS_OF_THREAD: usize = 1 << 14;
 
-/// How many slices edges are sorted into.
-pub(crate) fn slice_count(edges: &[PlacedEdge]) -> usize {
-    if edges.is_empty() {
-        return 0;
-    }
+/// Where slices lie so that there are no more crossings than that, unless there are as many edges.
+pub(crate) fn lay_out(frame: &LightFrame, edges: &[PlacedEdge], first_edge: u32, most: usize) -> (Borders, Vec<Span>) {
+    let most = most.min(CROSSINGS_OF_LIGHT);
+    let ranges: Vec<Option<(f64, f64)>> = edges.iter().map(angles).collect();
     let mut slices = (4 * edges.len()).next_power_of_two().clamp(SLICES.0, SLICES.1);
-    let share = |edge: &PlacedEdge| angles(edge).map_or(1.0, |(start, end)| (end - start) / 4.0);
-    let spanned: f64 = edges.iter().map(share).sum();
-    while slices > SLICES.0 && spanned * slices as f64 + 2.0 * edges.len() as f64 > CROSSINGS_MAX as f64 {
+    loop {
+        let borders = Borders::new(&ranges, slices);
+        let crossings: usize = ranges.iter().map(|range| borders.spanned(*range).count()).sum();
+        if crossings <= most || slices == 1 {
+            let placed = edges.iter().zip(&ranges).zip(first_edge..);
+            let spans = placed.map(|((edge, range), number)| Span::of(edge, *range, number, frame, &borders)).collect();
+            return (borders, spans);
+        }
         slices /= 2;
     }
-    slices
 }
 
-/// Appends to `crossings` those of each slice and to `starts` where each slice begins, with one more for the end of the
-/// last. `first_edge` is the number of the first edge.
-pub(crate) fn sort(
-    frame: &LightFrame,
-    edges: &[PlacedEdge],
-    slices: usize,
-    first_edge: u32,
-    starts: &mut Vec<u32>,
-    crossings: &mut Vec<ShadowCrossing>,
-) {
-    let borders = Borders::new(slices);
-    let spans: Vec<Span> =
-        edges.iter().zip(first_edge..).map(|(edge, number)| Span::of(edge, number, frame, &borders)).collect();
-    let mut ends = vec![0; slices];
-    for slice in spans.iter().flat_map(|span| span.slices(&borders)) {
+/// Appends to `crossings` those of each slice and to `starts` the bins and where each slice begins.
+pub(crate) fn sort(borders: &Borders, spans: &[Span], starts: &mut Vec<u32>, crossings: &mut Vec<ShadowCrossing>) {
+    let mut ends = vec![0; borders.slices()];
+    for slice in spans.iter().flat_map(|span| span.slices(borders)) {
         ends[slice] += 1;
     }
     let mut end = 0;
@@ -186,6 +178,7 @@ pub(crate) fn sort(
         *slice = end;
     }
     let first = crossings.len();
+    starts.extend(borders.bins.windows(2).map(|slices| slices[0] << 16 | (slices[1] - slices[0])));
     starts.extend([0].iter().chain(&ends).map(|end| (first + end) as u32));
     crossings.resize(first + end, ShadowCrossing::default());
     let threads = std::thread::available_parallelism().map_or(1, NonZero::get).min(1 + end / CROSSINGS_OF_THREAD);
@@ -198,7 +191,7 @@ pub(crate) fn sort(
             let count = if until == done { 0 } else { ends[until - 1] - before };
             let (part, others) = rest.split_at_mut(count);
             rest = others;
-            let (ends, spans, borders, range) = (&ends, &spans, &borders, done..until);
+            let (ends, range) = (&ends, done..until);
             let fill = move || fill(spans, borders, range, ends, part);
             done = until;
             // The last part is for this thread.
@@ -260,5 +253,45 @@ mod tests {
         let keys = crossings.map(|(nearest, edge)| key(nearest, edge));
         assert!(keys.is_sorted());
         assert_eq!(keys.map(|key| (nearest_of(key), key as u32)), crossings);
+    }
+
+    /// Edges of a ring of small squares about the axis, seen from the side, all within a degree of one another or all round.
+    fn ring(width: f64) -> (LightFrame, Vec<PlacedEdge>) {
+        let frame = LightFrame::new(Source::Along(DVec3::Z), DVec3::ZERO).unwrap();
+        let edge = |index: u32| {
+            let at = |turn: f64| DVec3::new(turn.cos(), turn.sin(), 0.3 * turn.sin()) * (1.0 + f64::from(index % 7));
+            let turn = 1.0 + width * f64::from(index) / 1000.0;
+            PlacedEdge { a: at(turn), b: at(turn + width / 1000.0), step: 1, away: None }
+        };
+        (frame, (0..1000).map(edge).collect())
+    }
+
+    fn crossings_by_slice(width: f64, most: usize) -> Vec<usize> {
+        let (frame, edges) = ring(width);
+        let (borders, spans) = lay_out(&frame, &edges, 0, most);
+        let (mut starts, mut crossings) = (Vec::new(), Vec::new());
+        sort(&borders, &spans, &mut starts, &mut crossings);
+        let slices = &starts[borders.bins.len() - 1..];
+        assert_eq!(slices.last().map(|end| *end as usize), Some(crossings.len()));
+        slices.windows(2).map(|pair| (pair[1] - pair[0]) as usize).collect()
+    }
+
+    /// However small the part of the turn is that edges are in, no slice has many.
+    #[test]
+    fn slices_lie_where_edges_are() {
+        for width in [std::f64::consts::TAU, 0.1, 0.01] {
+            let most = crossings_by_slice(width, usize::MAX).into_iter().max();
+            assert!(most.is_some_and(|most| most <= 10), "{most:?} crossings in a slice, edges within {width} rad");
+        }
+    }
+
+    /// Where there is little room, slices are wider, down to one that holds every edge.
+    #[test]
+    fn crossings_keep_within_their_room() {
+        for room in [100_000, 5_000, 2_500, 1_100] {
+            let crossings: usize = crossings_by_slice(0.3, room).iter().sum();
+            assert!(crossings <= room && crossings >= 1000, "{crossings} of {room}");
+        }
+        assert_eq!(crossings_by_slice(0.3, 10), [1000]);
     }
 }

@@ -17,6 +17,9 @@ use tyndall_shaders::shadows::lit_intervals;
 /// Metres; beyond there is nothing.
 const FAR: f64 = 40.0;
 
+/// Metres; nearer than this nothing is met: an eye on a triangle does not see it.
+const NEAR: f64 = 1e-4;
+
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Case {
@@ -76,7 +79,7 @@ fn way(ray: &Ray, setting: &Setting) -> f64 {
         let t = normal.dot(a - ray.origin) / normal.dot(ray.direction);
         let p = ray.at(t);
         let inside = [(a, b), (b, c), (c, a)].iter().all(|(u, v)| (v - u).cross(p - u).dot(normal) >= 0.0);
-        (t > 0.0 && inside).then_some(t)
+        (t > NEAR && inside).then_some(t)
     };
     setting.corners().into_iter().filter_map(meets).fold(FAR, f64::min)
 }
@@ -171,6 +174,30 @@ fn eye_and_light_on_planes() {
     }
     let share = share_of_wrong_rays("lattice", &setting, &mut random, 3);
     assert!(share <= AT_EDGES, "{share}");
+}
+
+/// The eye is on a face, on an edge and on a vertex of casters: of a soup, and of a mesh that shares its vertices.
+#[test]
+fn eyes_on_casters() {
+    let mut random = Random(0xe7e);
+    for round in 0..12 {
+        let mut setting = setting(&mut random);
+        if round % 2 == 0 {
+            for index in 0..40 {
+                let centre = random.cube() * 2.0;
+                setting.positions.extend((0..3).map(|_| rounded(centre + 0.8 * random.cube())));
+                setting.triangles.push([3 * index, 3 * index + 1, 3 * index + 2]);
+            }
+        } else {
+            setting.positions = (0..16).map(|_| rounded(random.cube() * 1.6)).collect();
+            setting.triangles = (0..14).map(|index| [index, index + 1, index + 2]).collect();
+        }
+        let [a, b, c] = setting.corners()[7];
+        setting.eye = rounded([(a + b + c) / 3.0, 0.3 * a + 0.7 * b, c][round / 2 % 3]);
+        let what = ["on a face", "on an edge", "on a vertex"][round / 2 % 3];
+        let share = share_of_wrong_rays(what, &setting, &mut random, if round % 2 == 0 { 4 } else { 1 });
+        assert!(share <= 4.0 * AT_EDGES, "{what}: {share}");
+    }
 }
 
 fn setting(random: &mut Random) -> Setting {
