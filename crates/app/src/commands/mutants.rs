@@ -29,7 +29,11 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Mutants) -> Result<()
     };
     let search = plugins::search_paths(arguments, &[]);
     let mut session = Session::new(app.plugins.clone(), search, verb.adapter.as_deref())?;
-    let findings = hunt(&mut session, &request, &mut told).map_err(failure)?;
+    let (findings, needless) = match hunt(&mut session, &request, &mut told) {
+        Ok(findings) => (findings, None),
+        Err(Trouble::Needless(findings, needless)) => (findings, Some(needless)),
+        Err(trouble) => return Err(failure(trouble)),
+    };
     if findings.is_empty() {
         return Err(Failure::Usage(format!("no pass that these tests run has {:?} in its name", verb.filter)));
     }
@@ -39,7 +43,8 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Mutants) -> Result<()
         tyndall_image::write_bytes(path, format!("{:#}\n", json(verb.seed, &findings)).as_bytes())?;
         terminal::line(&format!("\nwrote {}", path.display()));
     }
-    conclude(verb, &findings, start)
+    let enough = conclude(verb, &findings, start);
+    needless.map_or(enough, |mistakes| Err(mistakes.into()))
 }
 
 /// What became of the mutants of a pass, as soon as it is done.
@@ -62,6 +67,7 @@ fn failure(trouble: Trouble) -> Failure {
             Failure::Told(outcome.exit_code())
         }
         Trouble::Error(error) => error.into(),
+        Trouble::Needless(_, mistakes) => mistakes.into(),
         Trouble::Unbounded(pass) => Failure::Usage(format!(
             "`{pass}` does not come out the same once its loops are made to end: no mutant of it can be judged"
         )),

@@ -135,6 +135,8 @@ pub enum Trouble {
     Error(Error),
     /// A pass does not come out the same once its loops are made to end.
     Unbounded(String),
+    /// All mutants were judged, and there are reasons for such as are killed.
+    Needless(Vec<PassFindings>, Diagnostics),
 }
 
 impl From<Error> for Trouble {
@@ -146,7 +148,7 @@ impl From<Error> for Trouble {
 /// Runs the tests on mutants of every pass; tells of each pass when it is done with it.
 ///
 /// # Errors
-/// Tests that fail as they are; reasons for mutants that cannot be made.
+/// Tests that fail as they are; reasons for mutants that cannot be made or do not survive.
 pub fn hunt(
     session: &mut Session,
     hunt: &Hunt,
@@ -172,8 +174,10 @@ pub fn hunt(
         told(&findings);
         all.push(findings);
     }
-    reasons.refuse_needless()?;
-    Ok(all)
+    match reasons.refuse_needless() {
+        Ok(()) => Ok(all),
+        Err(needless) => Err(Trouble::Needless(all, needless)),
+    }
 }
 
 /// The tests as they are: all must pass.
