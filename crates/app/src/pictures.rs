@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use tyndall_gpu::Executor;
-use tyndall_image::{FileKind, Meaning, supported};
+use tyndall_gpu::{Executor, Numbers, PortData};
+use tyndall_image::{FileKind, Meaning, Sample, supported};
 use tyndall_render::{image, meaning, shape};
 
 use crate::failure::Failure;
@@ -12,21 +12,30 @@ use crate::failure::Failure;
 pub(crate) fn write_port(executor: &Executor, port: u32, path: &Path) -> Result<(), Failure> {
     let data = executor.read(port)?;
     let meaning = meaning(executor.plan().ports[port as usize].class);
-    if supported(path)? == FileKind::Npy {
-        let shape = shape(&data);
-        match meaning {
-            Meaning::Color | Meaning::Vector | Meaning::Display if data.is_image => {
-                let image = image(data).first_channels(3);
-                tyndall_image::write_array(path, &[shape[0], shape[1], 3], &image.data)?;
-            }
-            _ => tyndall_image::write_array(path, &shape, &data.data)?,
+    if supported(path)? != FileKind::Npy && !data.is_image() {
+        return Err(no_picture(executor.plan().port_name(port), path));
+    }
+    match data.numbers() {
+        Numbers::Floats(numbers) => write_numbers(path, &data, numbers, meaning),
+        Numbers::Whole(numbers) => write_numbers(path, &data, numbers, meaning),
+        // No texture holds numbers with a sign, and only `.npy` takes what is not a texture.
+        Numbers::Signed(numbers) => Ok(tyndall_image::write_array(path, &shape(&data), &numbers)?),
+    }
+}
+
+fn write_numbers<T: Sample>(path: &Path, data: &PortData, numbers: Vec<T>, meaning: Meaning) -> Result<(), Failure> {
+    if supported(path)? != FileKind::Npy {
+        return Ok(tyndall_image::write(path, &image(data, numbers), meaning)?);
+    }
+    let shape = shape(data);
+    match meaning {
+        Meaning::Color | Meaning::Vector | Meaning::Display if data.is_image() => {
+            let image = image(data, numbers).first_channels(3);
+            tyndall_image::write_array(path, &[shape[0], shape[1], 3], &image.data)?;
         }
-        return Ok(());
+        _ => tyndall_image::write_array(path, &shape, &numbers)?,
     }
-    if data.is_image {
-        return Ok(tyndall_image::write(path, &image(data), meaning)?);
-    }
-    Err(no_picture(executor.plan().port_name(port), path))
+    Ok(())
 }
 
 /// Only `.npy` holds what is no two-dimensional texture.

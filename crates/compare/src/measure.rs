@@ -80,9 +80,9 @@ impl<'p> Measured<'p> {
     pub fn picture(&self) -> Result<Vec<[f32; 3]>, Error> {
         let executor = &self.running.executor;
         let data = executor.read(executor.plan().roots[0])?;
-        let channels = data.channels.max(1) as usize;
+        let channels = data.channels() as usize;
         let pixel = |texel: &[f32]| [0, 1, 2].map(|channel: usize| texel[channel.min(channels - 1)]);
-        Ok(data.data.chunks_exact(channels).map(pixel).collect())
+        Ok(data.floats().chunks_exact(channels).map(pixel).collect())
     }
 
     /// Times each pass that runs in every frame once, alone on the GPU; the first time also those whose result stays, which

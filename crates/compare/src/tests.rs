@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use tyndall_document::{Code, Diagnostics, MISSING_FILE, Source, UNKNOWN_FIELD, fixture, render_text};
 use tyndall_gpu::PortData;
+use tyndall_graph::Resource;
 use tyndall_graph::codes::{BAD_SIZE, BAD_VERSION, NEWER_VERSION, OUT_OF_RANGE, UNKNOWN_OUTPUT, UNKNOWN_PARAMETER};
+use tyndall_graph::descriptor::{Dimension, Format};
 use tyndall_image::metrics::{Percentiles, percentiles};
 use tyndall_plugin::Registry;
 use tyndall_scene::{Primitive, Scene};
@@ -78,7 +80,7 @@ fn the_truth_of_surfaces() {
     let wall = Geometry {
         depth: port(size, 1, &[2.0]),
         normal: port(size, 1, &[0.0, 0.0, 1.0, 0.0]),
-        material: PortData { data: vec![0.6, 0.5, 0.4, 0.0, 0.2, 0.2, 0.2, 3.0], ..port(size, 2, &[0.0; 4]) },
+        material: filled(size, 2, Format::Rgba32Float, [0.6, 0.5, 0.4, 0.0, 0.2, 0.2, 0.2, 3.0]),
         ..nothing_met(size)
     };
     let light = |z: f64, extinction: f64| {
@@ -100,16 +102,28 @@ fn the_truth_of_surfaces() {
     assert!(behind > 1e-3 && behind < red, "{behind}");
 }
 
-/// A port of one layer of this value.
-fn port((width, height): (u32, u32), layers: u32, value: &[f32]) -> PortData {
-    let data = value.repeat((width * height * layers) as usize);
-    PortData { width, height, layers, channels: value.len() as u32, is_buffer: false, is_image: layers == 1, data }
+/// A port that holds these numbers.
+fn filled(
+    (width, height): (u32, u32),
+    depth_or_layers: u32,
+    format: Format,
+    numbers: impl IntoIterator<Item = f64>,
+) -> PortData {
+    let dimension = if depth_or_layers == 1 { Dimension::D2 } else { Dimension::D2Array };
+    let resource = Resource::Texture { dimension, format, width, height, depth_or_layers };
+    PortData::from_numbers(resource, format.scalar(), numbers)
+}
+
+/// A port of this value in every texel.
+fn port(size: (u32, u32), layers: u32, value: &[f64]) -> PortData {
+    let format = if value.len() == 1 { Format::R32Float } else { Format::Rgba32Float };
+    filled(size, layers, format, value.repeat((size.0 * size.1 * layers) as usize))
 }
 
 fn nothing_met(size: (u32, u32)) -> Geometry {
     let zeros = [0.0; 4];
     Geometry {
-        depth: port(size, 1, &[f32::INFINITY]),
+        depth: port(size, 1, &[f64::INFINITY]),
         normal: port(size, 1, &zeros),
         material: port(size, 2, &zeros),
         objects: Vec::new(),
@@ -132,9 +146,9 @@ fn met(scene: &Scene, twin: &tyndall_shaders::scene::Scene, size: (u32, u32)) ->
     let pixels = (0..size.1).flat_map(|y| (0..size.0).map(move |x| [x, y]));
     let depth = pixels.map(|pixel| {
         let ray = ray_of_pixel(&twin.camera, pixel, [size.0, size.1]);
-        nearest(&triangles, ray.origin, ray.direction) as f32
+        nearest(&triangles, ray.origin, ray.direction)
     });
-    let depth = PortData { data: depth.collect(), ..port(size, 1, &[0.0]) };
+    let depth = filled(size, 1, Format::R32Float, depth);
     Geometry { depth, ..nothing_met(size) }
 }
 

@@ -71,8 +71,8 @@ pub(crate) struct Geometry {
 impl Geometry {
     fn at(&self, x: u32, y: u32) -> Met {
         let texel = |port: &PortData, layer: u32| {
-            let first = (((layer * port.height + y) * port.width + x) * port.channels) as usize;
-            let channel = |i: usize| port.data.get(first + i).copied().map_or(0.0, f64::from);
+            let first = (((layer * port.height() + y) * port.width() + x) * port.channels()) as usize;
+            let channel = |i: usize| port.get(first + i).unwrap_or(0.0);
             (DVec3::new(channel(0), channel(1), channel(2)), channel(3))
         };
         let (specular, shininess) = texel(&self.material, 1);
@@ -87,7 +87,7 @@ impl Geometry {
 
     /// The object that a pixel shows.
     fn object(&self, x: u32, y: u32) -> Option<usize> {
-        let triangle = *self.triangle.data.get((y * self.triangle.width + x) as usize)? as usize;
+        let triangle = self.triangle.get((y * self.triangle.width() + x) as usize)? as usize;
         self.objects.get(triangle.checked_sub(1)?).copied()
     }
 }

@@ -16,7 +16,8 @@ use crate::cache::PipelineCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::freshness::Freshness;
-use crate::readback::{PortData, read, read_bytes};
+use crate::port_data::PortData;
+use crate::readback::{read, read_bytes};
 use crate::scene::SceneBuffers;
 use crate::setup::{Program, Programs, Recorder, Setup};
 use crate::slots::{Physical, create_all, fill, fill_stated, upload};
@@ -272,7 +273,9 @@ impl Executor {
             return Err(GpuError::Pass { pass: name, reason });
         }
         let slot = self.plan.ports[port as usize].slot as usize;
-        read(&self.gpu, &name, self.plan.resource(port), &self.slots[slot])
+        let resource = *self.plan.resource(port);
+        let scalar = resource.scalar(self.plan.port_descriptor(port));
+        read(&self.gpu, &name, (resource, scalar), &self.slots[slot])
     }
 
     /// Passes some of whose threads did not get to the end of their loops, because the driver ended them, and how many
@@ -296,7 +299,7 @@ impl Executor {
     }
 
     /// Puts content into a port in the place of what its pass would compute: `texels` in the port's own format, rows
-    /// from the top, without padding, as [`PortData::texels`] gives them. A pass runs from now on only where something
+    /// from the top, without padding, as [`PortData::bytes`] has them. A pass runs from now on only where something
     /// that it computes was not given. Holds until [`Executor::poison`].
     ///
     /// # Errors
@@ -313,14 +316,6 @@ impl Executor {
         upload(&self.gpu, &name, self.plan.resource(port), &self.slots[planned.slot as usize], texels)?;
         self.freshness.give(&self.plan, port as usize);
         Ok(())
-    }
-
-    /// The content of a slot, whatever it holds: constants that flow out of passes which are switched off.
-    ///
-    /// # Errors
-    /// A lost device.
-    pub fn read_slot(&self, slot: usize) -> Result<PortData, GpuError> {
-        read(&self.gpu, "a constant", &self.plan.slots[slot].resource, &self.slots[slot])
     }
 
     fn set_live(&mut self, frame: u32) {

@@ -1,77 +1,35 @@
-//! What a port holds, as numbers on the CPU.
+//! Copies from the GPU to the CPU.
 
-use half::f16;
 use tyndall_graph::Resource;
-use tyndall_graph::descriptor::{Dimension, Format};
+use tyndall_graph::descriptor::{Format, Scalar};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::slots::{Physical, encode};
-
-/// The content of a port, every number as `f32`, row 0 the top, layers one after another.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PortData {
-    /// Texels in x, or elements of a buffer.
-    pub width: u32,
-    /// Texels in y, 1 of a buffer.
-    pub height: u32,
-    /// Layers or texels in z, 1 otherwise.
-    pub layers: u32,
-    /// Numbers of a texel or an element.
-    pub channels: u32,
-    /// It is a buffer.
-    pub is_buffer: bool,
-    /// It is one plain two-dimensional image.
-    pub is_image: bool,
-    /// `width * height * layers * channels` numbers.
-    pub data: Vec<f32>,
-}
-
-impl PortData {
-    /// The content as the bytes of a port of this resource. Numbers of up to 24 bits, and all of float formats, come
-    /// out as they were read.
-    pub fn texels(&self, resource: &Resource) -> Vec<u8> {
-        match resource {
-            Resource::Texture { format, .. } => encode(*format, &self.data),
-            Resource::Buffer { bytes, .. } => {
-                let mut content = encode(Format::R32Float, &self.data);
-                content.resize(*bytes as usize, 0);
-                content
-            }
-        }
-    }
-}
+use crate::port_data::PortData;
+use crate::slots::Physical;
 
 /// Copies a slot to the CPU. Waits for the GPU.
-pub(crate) fn read(gpu: &Gpu, name: &str, resource: &Resource, physical: &Physical) -> Result<PortData, GpuError> {
-    match (physical, resource) {
-        (
-            Physical::Texture { texture, .. },
-            Resource::Texture { dimension, format, width, height, depth_or_layers },
-        ) => {
-            let bytes = read_texture(gpu, name, texture, *format)?;
-            let data = numbers(*format, &bytes);
-            Ok(PortData {
-                width: *width,
-                height: *height,
-                layers: *depth_or_layers,
-                channels: format.channels(),
-                is_buffer: false,
-                is_image: *dimension == Dimension::D2,
-                data,
-            })
+pub(crate) fn read(
+    gpu: &Gpu,
+    name: &str,
+    (resource, scalar): (Resource, Scalar),
+    physical: &Physical,
+) -> Result<PortData, GpuError> {
+    let bytes = match (physical, resource) {
+        (Physical::Texture { texture, .. }, Resource::Texture { format, .. }) => {
+            read_texture(gpu, name, texture, format)?
         }
-        (Physical::Buffer(buffer), Resource::Buffer { bytes, stride }) => {
-            let content = read_bytes(gpu, name, bytes.next_multiple_of(4), |encoder, staging| {
-                encoder.copy_buffer_to_buffer(buffer, 0, staging, 0, bytes.next_multiple_of(4));
+        (Physical::Buffer(buffer), Resource::Buffer { bytes, .. }) => {
+            let copied = bytes.next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT);
+            let mut content = read_bytes(gpu, name, copied, |encoder, staging| {
+                encoder.copy_buffer_to_buffer(buffer, 0, staging, 0, copied);
             })?;
-            let channels = (stride / 4).max(1);
-            let data = numbers(Format::R32Float, &content[..*bytes as usize & !3]);
-            let width = (data.len() as u32) / channels;
-            Ok(PortData { width, height: 1, layers: 1, channels, is_buffer: true, is_image: false, data })
+            content.truncate(bytes as usize);
+            content
         }
-        _ => Err(GpuError::Pass { pass: name.to_owned(), reason: "its slot is of another kind".to_owned() }),
-    }
+        _ => return Err(GpuError::Pass { pass: name.to_owned(), reason: "its slot is of another kind".to_owned() }),
+    };
+    Ok(PortData { resource, scalar, bytes })
 }
 
 fn read_texture(gpu: &Gpu, name: &str, texture: &wgpu::Texture, format: Format) -> Result<Vec<u8>, GpuError> {
@@ -131,20 +89,5 @@ pub(crate) fn read_bytes(
     match staging.get_mapped_range(..) {
         Ok(view) => Ok(view.to_vec()),
         Err(error) => Err(GpuError::Refused { what, reason: error.to_string() }),
-    }
-}
-
-fn numbers(format: Format, bytes: &[u8]) -> Vec<f32> {
-    match format {
-        Format::R32Float | Format::Rg32Float | Format::Rgba32Float | Format::Depth32Float => {
-            bytes.as_chunks().0.iter().map(|four| f32::from_le_bytes(*four)).collect()
-        }
-        Format::R16Float | Format::Rg16Float | Format::Rgba16Float => {
-            bytes.as_chunks().0.iter().map(|two| f16::from_le_bytes(*two).to_f32()).collect()
-        }
-        Format::Rgba8Unorm => bytes.iter().map(|byte| f32::from(*byte) / 255.0).collect(),
-        Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint => {
-            bytes.as_chunks().0.iter().map(|four| u32::from_le_bytes(*four) as f32).collect()
-        }
     }
 }

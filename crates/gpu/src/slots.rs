@@ -1,11 +1,11 @@
 //! The plan's slots as textures and buffers.
 
-use half::f16;
-use tyndall_graph::descriptor::{Dimension, Format};
+use tyndall_graph::descriptor::{Dimension, Format, Scalar};
 use tyndall_graph::{Plan, Resource, Slot, SlotKind};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::port_data::encode;
 
 /// One physical resource of a plan.
 pub(crate) enum Physical {
@@ -208,31 +208,18 @@ fn clear_depth(gpu: &Gpu, device: &wgpu::Device, view: &wgpu::TextureView, value
 
 /// A value as the bytes of one texel. Formats without NaN get a marker instead that no pass writes by itself.
 fn texel(format: Format, value: [f32; 4]) -> Vec<u8> {
-    let value = match format {
-        Format::Rgba8Unorm => value.map(|v| if v.is_nan() { f32::from(MARKER) / 255.0 } else { v }),
-        Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint => {
-            value.map(|v| if v.is_nan() { f32::from(MARKER) * 65536.0 } else { v })
-        }
-        _ => value,
+    let marker = match format.scalar() {
+        Scalar::F32 | Scalar::F16 => f32::NAN,
+        Scalar::Unorm8 => f32::from(MARKER) / 255.0,
+        Scalar::U32 | Scalar::I32 => f32::from(MARKER) * 65536.0,
     };
-    encode(format, &value[..format.channels() as usize])
+    let value = value.map(|number| if number.is_nan() { marker } else { number });
+    let mut bytes = Vec::with_capacity(format.bytes() as usize);
+    value[..format.channels() as usize]
+        .iter()
+        .for_each(|number| encode(format.scalar(), f64::from(*number), &mut bytes));
+    bytes
 }
 
 /// What stands for NaN in a format that has none.
 const MARKER: u8 = 0xa7;
-
-/// Numbers as the bytes of texels: the inverse of what a read-back does.
-pub(crate) fn encode(format: Format, numbers: &[f32]) -> Vec<u8> {
-    match format {
-        Format::R32Float | Format::Rg32Float | Format::Rgba32Float | Format::Depth32Float => {
-            numbers.iter().flat_map(|v| v.to_le_bytes()).collect()
-        }
-        Format::R16Float | Format::Rg16Float | Format::Rgba16Float => {
-            numbers.iter().flat_map(|v| f16::from_f32(*v).to_le_bytes()).collect()
-        }
-        Format::Rgba8Unorm => numbers.iter().map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8).collect(),
-        Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint => {
-            numbers.iter().flat_map(|v| (*v as u32).to_le_bytes()).collect()
-        }
-    }
-}

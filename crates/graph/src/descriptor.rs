@@ -155,6 +155,54 @@ pub enum PortKind {
     },
 }
 
+impl PortKind {
+    /// How its numbers are stored, as far as this tells: those of a texture input that reads several formats, and of elements
+    /// that are structs (whose members may be of several types), count as 32-bit floats.
+    pub fn scalar(&self) -> Scalar {
+        match self {
+            PortKind::Texture { format, .. } => format.map_or(Scalar::F32, Format::scalar),
+            PortKind::Buffer { element, .. } | PortKind::Value { element, .. } => Scalar::of_type(element),
+        }
+    }
+}
+
+/// How a number of a port is stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Scalar {
+    /// 32-bit float.
+    F32,
+    /// 16-bit float.
+    F16,
+    /// 0 to 1 in 255 steps, one byte.
+    Unorm8,
+    /// Whole number from 0, 32 bits.
+    U32,
+    /// Whole number with a sign, 32 bits.
+    I32,
+}
+
+impl Scalar {
+    /// Bytes of a number.
+    pub const fn bytes(self) -> usize {
+        match self {
+            Scalar::F32 | Scalar::U32 | Scalar::I32 => 4,
+            Scalar::F16 => 2,
+            Scalar::Unorm8 => 1,
+        }
+    }
+
+    /// Of a scalar, a vector, a matrix or an array in WGSL (`u32`, `vec3<u32>`, `array<atomic<u32>, 4>`); floats of all
+    /// others.
+    fn of_type(name: &str) -> Self {
+        let innermost = name.rsplit('<').next().unwrap_or(name);
+        match innermost.split(['>', ',']).next().map(str::trim) {
+            Some("u32") => Scalar::U32,
+            Some("i32") => Scalar::I32,
+            _ => Scalar::F32,
+        }
+    }
+}
+
 /// Dimension of a texture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Dimension {
@@ -243,6 +291,16 @@ impl Format {
             Format::R16Float | Format::R32Float | Format::R32Uint | Format::Depth32Float => 1,
             Format::Rg16Float | Format::Rg32Float | Format::Rg32Uint => 2,
             _ => 4,
+        }
+    }
+
+    /// How a channel is stored.
+    pub const fn scalar(self) -> Scalar {
+        match self {
+            Format::R32Float | Format::Rg32Float | Format::Rgba32Float | Format::Depth32Float => Scalar::F32,
+            Format::R16Float | Format::Rg16Float | Format::Rgba16Float => Scalar::F16,
+            Format::Rgba8Unorm => Scalar::Unorm8,
+            Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint => Scalar::U32,
         }
     }
 
@@ -451,5 +509,18 @@ impl fmt::Display for ParamValue {
             }
             ParamValue::Choice(word) | ParamValue::File(word) => write!(f, "{word:?}"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_numbers_of_wgsl_types() {
+        let types =
+            ["f32", "vec2<f32>", "mat3x3<f32>", "Light", "u32", "vec4<u32>", "atomic<u32>", "array<vec2<i32>, 8>"];
+        use Scalar::{F32, I32, U32};
+        assert_eq!(types.map(Scalar::of_type), [F32, F32, F32, F32, U32, U32, U32, I32]);
     }
 }

@@ -14,18 +14,19 @@ use exr::meta::attribute::SampleType;
 use exr::meta::header::Header;
 use half::f16;
 
+use crate::image::FromExact;
 use crate::{Image, limits};
 
 /// Largest side of a tile, pixels: those of today's files have 512 at most.
 const LARGEST_TILE: usize = 8_192;
 
 /// The first layer of the file whose channels are understood.
-pub(crate) fn decode(bytes: &[u8]) -> Result<Image, String> {
+pub(crate) fn decode<T: FromExact>(bytes: &[u8]) -> Result<Image<T>, String> {
     // The reader has assertions of its own about what a file says; one that fails is the file's mistake.
     catch_unwind(AssertUnwindSafe(|| decode_checked(bytes))).unwrap_or_else(|_| Err("not a sound EXR file".to_owned()))
 }
 
-fn decode_checked(bytes: &[u8]) -> Result<Image, String> {
+fn decode_checked<T: FromExact>(bytes: &[u8]) -> Result<Image<T>, String> {
     let reader = exr::block::read(Cursor::new(bytes), false).map_err(said)?;
     let (layer, sources) = choose_layer(reader.headers())?;
     for header in reader.headers() {
@@ -36,7 +37,7 @@ fn decode_checked(bytes: &[u8]) -> Result<Image, String> {
         return Err(format!("EXR files with {} are not read", header.compression));
     }
     let (width, height) = (header.layer_size.width(), header.layer_size.height());
-    let data = vec![0.0; width * height * sources.len()];
+    let data = vec![T::default(); width * height * sources.len()];
     let mut image = Image::new(width as u32, height as u32, sources.len() as u32, data);
 
     let first_level = |block: exr::block::BlockIndex| block.layer == layer && block.level == exr::math::Vec2(0, 0);
@@ -99,7 +100,12 @@ fn check_size(header: &Header, file_bytes: usize) -> Result<(), String> {
 }
 
 /// Copies the lines of a block into the image; the number of samples that were copied.
-fn copy_block(header: &Header, block: &UncompressedBlock, sources: &[usize], image: &mut Image) -> usize {
+fn copy_block<T: FromExact>(
+    header: &Header,
+    block: &UncompressedBlock,
+    sources: &[usize],
+    image: &mut Image<T>,
+) -> usize {
     let (width, channels) = (image.width as usize, sources.len());
     let mut copied = 0;
     for line in block.lines(&header.channels) {
@@ -113,18 +119,18 @@ fn copy_block(header: &Header, block: &UncompressedBlock, sources: &[usize], ima
     copied
 }
 
-fn copy_line<'a>(kind: SampleType, bytes: &[u8], row: impl Iterator<Item = &'a mut f32>) -> usize {
+fn copy_line<'a, T: FromExact + 'a>(kind: SampleType, bytes: &[u8], row: impl Iterator<Item = &'a mut T>) -> usize {
     // The reader has turned the bytes to the machine's own order.
     let four = || bytes.as_chunks::<4>().0.iter().copied();
     match kind {
-        SampleType::F32 => fill(row, four().map(f32::from_ne_bytes)),
-        SampleType::U32 => fill(row, four().map(|bytes| u32::from_ne_bytes(bytes) as f32)),
-        SampleType::F16 => fill(row, bytes.as_chunks::<2>().0.iter().map(|&two| f16::from_ne_bytes(two).to_f32())),
+        SampleType::F32 => fill(row, four().map(|bytes| f64::from(f32::from_ne_bytes(bytes)))),
+        SampleType::U32 => fill(row, four().map(|bytes| f64::from(u32::from_ne_bytes(bytes)))),
+        SampleType::F16 => fill(row, bytes.as_chunks::<2>().0.iter().map(|&two| f16::from_ne_bytes(two).to_f64())),
     }
 }
 
-fn fill<'a>(row: impl Iterator<Item = &'a mut f32>, samples: impl Iterator<Item = f32>) -> usize {
-    row.zip(samples).map(|(target, sample)| *target = sample).count()
+fn fill<'a, T: FromExact + 'a>(row: impl Iterator<Item = &'a mut T>, samples: impl Iterator<Item = f64>) -> usize {
+    row.zip(samples).map(|(target, sample)| *target = T::from_exact(sample)).count()
 }
 
 fn said(error: exr::error::Error) -> String {

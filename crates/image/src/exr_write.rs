@@ -1,4 +1,4 @@
-//! OpenEXR out: 32-bit or 16-bit float, linear, lossless (ZIP).
+//! OpenEXR out: 32-bit or 16-bit float or whole numbers of 32 bits, linear, lossless (ZIP).
 
 use std::io;
 use std::path::Path;
@@ -13,37 +13,49 @@ use crate::{Error, Image, Meaning, linear_from_srgb, write_atomically};
 pub enum Precision {
     /// 16: rounded to 11 significant bits, up to 65504, infinity above.
     Half,
-    /// 32: as it is.
+    /// 32, as a float.
     Float,
+    /// 32, as a whole number from 0.
+    Whole,
 }
 
 /// Writes the first layer of `image` with the channel names of `meaning`.
-pub(crate) fn write(path: &Path, image: &Image, meaning: Meaning, precision: Precision) -> Result<(), Error> {
-    let samples = |samples: Vec<f32>| match precision {
-        Precision::Float => FlatSamples::F32(samples),
-        Precision::Half => FlatSamples::F16(samples.into_iter().map(f16::from_f32).collect()),
-    };
+pub(crate) fn write<T: Copy + Into<f64>>(
+    path: &Path,
+    image: &Image<T>,
+    meaning: Meaning,
+    precision: Precision,
+) -> Result<(), Error> {
     write_atomically(path, |writer| {
-        let channels = planes(image, meaning).into_iter();
-        let channels = channels.map(|(name, numbers)| AnyChannel::new(name, samples(numbers))).collect();
+        let plane =
+            |(index, name): (usize, &&'static str)| AnyChannel::new(*name, samples(image, meaning, index, precision));
+        let channels = names(image.channels, meaning).iter().enumerate().map(plane).collect();
         let size = (image.width as usize, image.height as usize);
         let layer = Layer::new(size, LayerAttributes::default(), Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels));
         exr::prelude::Image::from_layer(layer).write().to_buffered(writer).map_err(io_error)
     })
 }
 
-/// The names and samples of the channels, one plane each.
-fn planes(image: &Image, meaning: Meaning) -> Vec<(&'static str, Vec<f32>)> {
-    let names = names(image.channels, meaning);
-    let decode = meaning == Meaning::Display;
-    let plane = |index: usize| {
-        if index >= image.channels as usize {
-            return vec![1.0; image.pixel_count()]; // alpha of an opaque image
-        }
-        let samples = image.data.iter().skip(index).step_by(image.channels as usize).copied();
-        if decode && index < 3 { samples.map(linear_from_srgb).collect() } else { samples.collect() }
-    };
-    names.iter().enumerate().map(|(index, &name)| (name, plane(index))).collect()
+/// One channel of every pixel; 1 where the image has none, which is the alpha of an opaque image.
+fn samples<T: Copy + Into<f64>>(
+    image: &Image<T>,
+    meaning: Meaning,
+    channel: usize,
+    precision: Precision,
+) -> FlatSamples {
+    let channels = image.channels as usize;
+    let is_encoded = meaning == Meaning::Display && channel < 3;
+    let numbers = (0..image.pixel_count()).map(|pixel| match image.data.get(pixel * channels + channel) {
+        _ if channel >= channels => 1.0,
+        Some(&number) if is_encoded => f64::from(linear_from_srgb(number.into() as f32)),
+        Some(&number) => number.into(),
+        None => 0.0,
+    });
+    match precision {
+        Precision::Half => FlatSamples::F16(numbers.map(f16::from_f64).collect()),
+        Precision::Float => FlatSamples::F32(numbers.map(|number| number as f32).collect()),
+        Precision::Whole => FlatSamples::U32(numbers.map(|number| number as u32).collect()),
+    }
 }
 
 /// Channel names for an image of `channels` channels; the contract's, by meaning.

@@ -7,13 +7,13 @@ use crate::{Error, Kind};
 /// A format that images are read from and written to, chosen by the suffix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
-    /// OpenEXR, 32-bit float, linear.
+    /// OpenEXR, 32-bit float or whole numbers, linear.
     Exr,
     /// PNG, 8-bit sRGB.
     Png,
     /// Radiance RGBE, linear.
     Hdr,
-    /// NumPy array, float32.
+    /// NumPy array, float32 or uint32.
     Npy,
 }
 

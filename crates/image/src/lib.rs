@@ -1,9 +1,9 @@
 //! Images in memory and in files, and numbers that compare them.
 //!
-//! In memory an image is linear `f32` ([`Image`]); what its channels mean ([`Meaning`]) decides how a file names and
-//! encodes them. [`write()`] and [`read()`] choose the format by the suffix: `.exr` (32-bit float, linear), `.png`
-//! (8-bit sRGB), `.hdr` (RGBE) and `.npy` (float32, any shape). A file appears whole or not at all
-//! ([`write_atomically`]).
+//! In memory an image is linear `f32` ([`Image`]), or of whole numbers (`Image<u32>`); what its channels mean
+//! ([`Meaning`]) decides how a file names and encodes them. [`write()`] and [`read()`] choose the format by the suffix:
+//! `.exr` (32-bit float or whole numbers, linear), `.png` (8-bit sRGB), `.hdr` (RGBE) and `.npy` (float32 or uint32, any
+//! shape). A file appears whole or not at all ([`write_atomically`]).
 //!
 //! Invariants: row 0 is the top; a reader never panics and never allocates much more than the file can fill;
 //! every error names its file.
@@ -31,12 +31,14 @@ pub use error::{Error, Kind};
 pub use exr_write::Precision;
 pub use folder::NewFolder;
 pub use frames::{frame_path, has_frame_number};
-pub use image::{Image, Meaning};
+pub use image::{Image, Meaning, Number, Sample};
 pub use kind::{FileKind, supported};
 pub use npy::{Array, read_array, write_array};
 pub use srgb::{linear_from_srgb, srgb_from_linear};
 
 use std::path::Path;
+
+use image::FromExact;
 
 /// Writes `image` to `path`, in the format of the path's suffix, whole or not at all.
 ///
@@ -45,7 +47,7 @@ use std::path::Path;
 /// # Errors
 /// An unknown suffix, an image whose `data` does not fit its size, more than one layer in a format that has none
 /// (all but `.npy`), and whatever the file system refuses.
-pub fn write(path: &Path, image: &Image, meaning: Meaning) -> Result<(), Error> {
+pub fn write<T: Sample>(path: &Path, image: &Image<T>, meaning: Meaning) -> Result<(), Error> {
     let kind = supported(path)?;
     image.check(path)?;
     if kind != FileKind::Npy && image.layers != 1 {
@@ -53,9 +55,9 @@ pub fn write(path: &Path, image: &Image, meaning: Meaning) -> Result<(), Error> 
         return Err(Error::new(Kind::Usage, path, message));
     }
     match kind {
-        FileKind::Exr => exr_write::write(path, image, meaning, Precision::Float),
-        FileKind::Png => png::write(path, image, meaning),
-        FileKind::Hdr => hdr::write(path, image, meaning),
+        FileKind::Exr => exr_write::write(path, image, meaning, T::PRECISION),
+        FileKind::Png => png::write(path, &image.floats(), meaning),
+        FileKind::Hdr => hdr::write(path, &image.floats(), meaning),
         FileKind::Npy => npy::write_image(path, image, meaning),
     }
 }
@@ -79,7 +81,7 @@ pub fn encode_png(path: &Path, image: &Image, meaning: Meaning) -> Result<Vec<u8
 ///
 /// # Errors
 /// As [`write()`].
-pub fn write_exr(path: &Path, image: &Image, meaning: Meaning, precision: Precision) -> Result<(), Error> {
+pub fn write_exr(path: &Path, image: &Image<f64>, meaning: Meaning, precision: Precision) -> Result<(), Error> {
     image.check(path)?;
     exr_write::write(path, image, meaning, precision)
 }
@@ -93,9 +95,15 @@ pub fn write_exr(path: &Path, image: &Image, meaning: Meaning, precision: Precis
 /// # Errors
 /// An unknown suffix, a file that cannot be read, and content that is broken, truncated or larger than is taken.
 pub fn read(path: &Path) -> Result<Image, Error> {
-    let kind = supported(path)?;
-    let bytes = limits::read_file(path)?;
-    decode(path, kind, &bytes)
+    decode(path, supported(path)?, &limits::read_file(path)?)
+}
+
+/// As [`read()`], with every number exactly as the file holds it.
+///
+/// # Errors
+/// As [`read()`].
+pub fn read_exact(path: &Path) -> Result<Image<f64>, Error> {
+    decode_exact(path, supported(path)?, &limits::read_file(path)?)
 }
 
 /// Decodes `bytes` as a file of `kind`; `path` only names it in errors.
@@ -103,10 +111,23 @@ pub fn read(path: &Path) -> Result<Image, Error> {
 /// # Errors
 /// Content that is broken, truncated or larger than is taken.
 pub fn decode(path: &Path, kind: FileKind, bytes: &[u8]) -> Result<Image, Error> {
+    decode_as(path, kind, bytes)
+}
+
+/// As [`decode`], with every number exactly as the file holds it.
+///
+/// # Errors
+/// As [`decode`].
+pub fn decode_exact(path: &Path, kind: FileKind, bytes: &[u8]) -> Result<Image<f64>, Error> {
+    decode_as(path, kind, bytes)
+}
+
+fn decode_as<T: FromExact>(path: &Path, kind: FileKind, bytes: &[u8]) -> Result<Image<T>, Error> {
+    let floats = |image: Image| image.map(|number| T::from_exact(f64::from(number)));
     let image = match kind {
         FileKind::Exr => exr_read::decode(bytes),
-        FileKind::Png => png::decode(bytes),
-        FileKind::Hdr => hdr::decode(bytes),
+        FileKind::Png => png::decode(bytes).map(floats),
+        FileKind::Hdr => hdr::decode(bytes).map(floats),
         FileKind::Npy => npy::decode_image(bytes),
     };
     image.map_err(|message| Error::new(Kind::Input, path, message))

@@ -49,7 +49,11 @@ pub struct Percentiles {
 ///
 /// # Errors
 /// If the images are of different shape.
-pub fn absolute(image: &Image, reference: &Image, tolerance: f64) -> Result<Absolute, Incomparable> {
+pub fn absolute<T: Copy + Into<f64>>(
+    image: &Image<T>,
+    reference: &Image<T>,
+    tolerance: f64,
+) -> Result<Absolute, Incomparable> {
     let mut result = Absolute { largest: 0.0, failing: 0, count: 0 };
     for (a, b) in pairs(image, reference)? {
         let difference = difference(a, b);
@@ -64,9 +68,8 @@ pub fn absolute(image: &Image, reference: &Image, tolerance: f64) -> Result<Abso
 ///
 /// # Errors
 /// If the images are of different shape.
-pub fn differing_bits(image: &Image, reference: &Image) -> Result<usize, Incomparable> {
-    same_shape(image, reference)?;
-    Ok(image.data.iter().zip(&reference.data).filter(|(a, b)| a.to_bits() != b.to_bits()).count())
+pub fn differing_bits<T: Copy + Into<f64>>(image: &Image<T>, reference: &Image<T>) -> Result<usize, Incomparable> {
+    Ok(pairs(image, reference)?.filter(|(a, b)| a.to_bits() != b.to_bits()).count())
 }
 
 /// Root of the mean squared difference over the root of the mean square of the reference: √(Σ(a−b)² / Σb²).
@@ -76,7 +79,7 @@ pub fn differing_bits(image: &Image, reference: &Image) -> Result<usize, Incompa
 ///
 /// # Errors
 /// If the images are of different shape.
-pub fn relative_rmse(image: &Image, reference: &Image) -> Result<f64, Incomparable> {
+pub fn relative_rmse<T: Copy + Into<f64>>(image: &Image<T>, reference: &Image<T>) -> Result<f64, Incomparable> {
     let (mut error, mut power) = (0.0, 0.0);
     for (a, b) in pairs(image, reference)? {
         error += difference(a, b).powi(2);
@@ -92,9 +95,9 @@ pub fn relative_rmse(image: &Image, reference: &Image) -> Result<f64, Incomparab
 ///
 /// # Errors
 /// If the images are of different shape, `keep` has another number of pixels, or no pixel is left.
-pub fn relative_errors(
-    image: &Image,
-    reference: &Image,
+pub fn relative_errors<T: Copy + Into<f64>>(
+    image: &Image<T>,
+    reference: &Image<T>,
     floor: f64,
     keep: Option<&[bool]>,
 ) -> Result<Percentiles, Incomparable> {
@@ -134,7 +137,7 @@ pub fn median(values: &mut [f64]) -> Option<f64> {
 ///
 /// # Errors
 /// If the images are of different shape.
-pub fn sum_ratio(image: &Image, reference: &Image) -> Result<f64, Incomparable> {
+pub fn sum_ratio<T: Copy + Into<f64>>(image: &Image<T>, reference: &Image<T>) -> Result<f64, Incomparable> {
     let (mut sum, mut wanted) = (0.0, 0.0);
     for (a, b) in pairs(image, reference)?.filter(|(a, b)| a != b || a.is_finite()) {
         if !a.is_finite() || !b.is_finite() {
@@ -160,17 +163,20 @@ fn relative(a: f64, b: f64, floor: f64) -> f64 {
     if difference.is_finite() { difference / b.abs().max(floor) } else { f64::INFINITY }
 }
 
-fn pairs<'a>(image: &'a Image, reference: &'a Image) -> Result<impl Iterator<Item = (f64, f64)> + 'a, Incomparable> {
+fn pairs<'a, T: Copy + Into<f64>>(
+    image: &'a Image<T>,
+    reference: &'a Image<T>,
+) -> Result<impl Iterator<Item = (f64, f64)> + 'a, Incomparable> {
     same_shape(image, reference)?;
-    Ok(image.data.iter().zip(&reference.data).map(|(&a, &b)| (f64::from(a), f64::from(b))))
+    Ok(image.data.iter().zip(&reference.data).map(|(&a, &b)| (a.into(), b.into())))
 }
 
 /// Nothing where two images have as many texels, layers and channels, and any at all.
 ///
 /// # Errors
 /// If they are of different shape, or empty.
-pub fn same_shape(image: &Image, reference: &Image) -> Result<(), Incomparable> {
-    let shape = |image: &Image| {
+pub fn same_shape<T>(image: &Image<T>, reference: &Image<T>) -> Result<(), Incomparable> {
+    let shape = |image: &Image<T>| {
         let Image { width, height, layers, channels, data } = image;
         (format!("{width}x{height}x{layers} with {channels} channels"), data.len())
     };
@@ -249,6 +255,15 @@ mod tests {
         assert_eq!(sum_ratio(&ramp(), &blank).unwrap(), f64::INFINITY);
     }
 
+    /// A difference of one beyond 2^24 is one of whole numbers; as floats they would be equal.
+    #[test]
+    fn whole_numbers_are_compared_exactly() {
+        let whole = |number: u32| Image::filled(2, 1, &[number]);
+        let (a, b) = (whole((1 << 24) + 1), whole(1 << 24));
+        assert_eq!((differing_bits(&a, &b).unwrap(), absolute(&a, &b, 0.0).unwrap().largest), (2, 1.0));
+        assert_eq!(differing_bits(&a.floats(), &b.floats()).unwrap(), 0);
+    }
+
     #[test]
     fn nan_never_passes() {
         for other in [image(&[f32::NAN, 1.0]), image(&[1.0, 1.0]), image(&[f32::INFINITY, 1.0])] {
@@ -285,7 +300,7 @@ mod tests {
         assert!(absolute(&ramp(), &image(&[1.0]), 0.0).is_err());
         assert!(relative_errors(&ramp(), &ramp(), 1e-6, Some(&[false; 100])).is_err());
         assert!(relative_errors(&ramp(), &ramp(), 1e-6, Some(&[true; 99])).is_err());
-        let empty = Image { width: 0, height: 0, layers: 1, channels: 1, data: vec![] };
+        let empty = Image::<f32> { width: 0, height: 0, layers: 1, channels: 1, data: vec![] };
         assert!(sum_ratio(&empty, &empty).is_err());
         assert_eq!(percentiles(&mut []), None);
     }

@@ -1,19 +1,20 @@
-//! NumPy arrays (format version 1.0 out; 1.0 to 3.0 in): little-endian float32, C order.
+//! NumPy arrays (format version 1.0 out; 1.0 to 3.0 in): little-endian, C order, float32 or whole numbers of 32 bits out.
 
 use std::io::Write;
 use std::path::Path;
 
 use half::f16;
 
+use crate::image::{FromExact, Number, Sample};
 use crate::{Error, Image, Kind, Meaning, limits, write_atomically};
 
 /// Numbers of any shape, in C order (the last index runs fastest).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Array {
+pub struct Array<T = f32> {
     /// Length along each axis.
     pub shape: Vec<usize>,
     /// As many numbers as the product of `shape`.
-    pub data: Vec<f32>,
+    pub data: Vec<T>,
 }
 
 const MAGIC: &[u8] = b"\x93NUMPY";
@@ -21,18 +22,19 @@ const MAGIC: &[u8] = b"\x93NUMPY";
 /// Most axes that are read; NumPy itself allows 64.
 const MOST_AXES: usize = 8;
 
-/// Writes numbers as a float32 array of `shape`: a buffer of `n` elements of `k` numbers is `[n, k]`.
+/// Writes numbers as an array of `shape`, of float32, uint32 or int32 as they are: a buffer of `n` elements of `k` numbers
+/// is `[n, k]`.
 ///
 /// # Errors
 /// If `data` does not fill the shape, or the file cannot be written.
-pub fn write_array(path: &Path, shape: &[usize], data: &[f32]) -> Result<(), Error> {
+pub fn write_array<T: Number>(path: &Path, shape: &[usize], data: &[T]) -> Result<(), Error> {
     if shape.iter().product::<usize>() != data.len() {
         let message = format!("{} numbers do not fill an array of {shape:?}", data.len());
         return Err(Error::new(Kind::Usage, path, message));
     }
     write_atomically(path, |writer| {
-        writer.write_all(&header(shape))?;
-        data.iter().try_for_each(|number| writer.write_all(&number.to_le_bytes()))
+        writer.write_all(&header(T::NUMPY, shape))?;
+        data.iter().try_for_each(|number| writer.write_all(&number.to_bytes()))
     })
 }
 
@@ -47,7 +49,7 @@ pub fn read_array(path: &Path) -> Result<Array, Error> {
 
 /// Shape (height, width) for a scalar, (height, width, channels) for a picture, (layers, height, width, channels)
 /// else.
-pub(crate) fn write_image(path: &Path, image: &Image, meaning: Meaning) -> Result<(), Error> {
+pub(crate) fn write_image<T: Sample>(path: &Path, image: &Image<T>, meaning: Meaning) -> Result<(), Error> {
     let kept = match meaning {
         Meaning::Scalar => 1,
         Meaning::Vector => 3,
@@ -63,7 +65,7 @@ pub(crate) fn write_image(path: &Path, image: &Image, meaning: Meaning) -> Resul
     }
 }
 
-pub(crate) fn decode_image(bytes: &[u8]) -> Result<Image, String> {
+pub(crate) fn decode_image<T: FromExact>(bytes: &[u8]) -> Result<Image<T>, String> {
     let Array { shape, data } = decode(bytes)?;
     let (layers, height, width, channels) = match shape[..] {
         [height, width] => (1, height, width, 1),
@@ -78,12 +80,12 @@ pub(crate) fn decode_image(bytes: &[u8]) -> Result<Image, String> {
     Ok(Image { width, height, layers, channels, data })
 }
 
-fn header(shape: &[usize]) -> Vec<u8> {
+fn header(number: &str, shape: &[usize]) -> Vec<u8> {
     let lengths: Vec<String> = shape.iter().map(|length| format!("{length},")).collect();
     let shape = lengths.join(" ");
     // One axis keeps its comma, as Python wants; more have none at the end, as NumPy writes them.
     let shape = if lengths.len() > 1 { shape.trim_end_matches(',') } else { &shape };
-    let mut text = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({shape}), }}");
+    let mut text = format!("{{'descr': '{number}', 'fortran_order': False, 'shape': ({shape}), }}");
     let prefix = MAGIC.len() + 4;
     // The numbers begin at a multiple of 64; the line ends before them.
     let padding = 63 - (prefix + text.len()) % 64;
@@ -96,7 +98,7 @@ fn header(shape: &[usize]) -> Vec<u8> {
     bytes
 }
 
-fn decode(bytes: &[u8]) -> Result<Array, String> {
+fn decode<T: FromExact>(bytes: &[u8]) -> Result<Array<T>, String> {
     let (text, body) = split(bytes).ok_or("not a sound NumPy file: its header is damaged")?;
     let bad = |what: &str| format!("not a sound NumPy file: {what}");
     if entry(text, "fortran_order").is_none_or(|order| !order.starts_with("False")) {
@@ -110,7 +112,7 @@ fn decode(bytes: &[u8]) -> Result<Array, String> {
     let numbers = body.get(..wanted).ok_or_else(|| {
         format!("not a sound NumPy file: an array of {shape:?} takes {wanted} bytes and {} are there", body.len())
     })?;
-    Ok(Array { shape, data: numbers.chunks_exact(size).map(convert).collect() })
+    Ok(Array { shape, data: numbers.chunks_exact(size).map(convert).map(T::from_exact).collect() })
 }
 
 /// The header's text and what follows it.
@@ -139,20 +141,20 @@ fn shape_of(text: &str) -> Option<Vec<usize>> {
     (shape.len() <= MOST_AXES).then_some(shape)
 }
 
-type Convert = fn(&[u8]) -> f32;
+type Convert = fn(&[u8]) -> f64;
 
-/// Size in bytes of one number of the type `descr`, and what turns it into a float32.
+/// Size in bytes of one number of the type `descr`, and what turns it into a float64, which holds each exactly.
 fn number_type(descr: &str) -> Result<(usize, Convert), String> {
     fn read<const N: usize>(bytes: &[u8]) -> [u8; N] {
         bytes.first_chunk().copied().unwrap_or([0; N])
     }
     Ok(match descr {
-        "<f2" => (2, |bytes| f16::from_le_bytes(read(bytes)).to_f32()),
-        "<f4" => (4, |bytes| f32::from_le_bytes(read(bytes))),
-        "<f8" => (8, |bytes| f64::from_le_bytes(read(bytes)) as f32),
-        "|u1" | "|b1" => (1, |bytes| f32::from(read::<1>(bytes)[0])),
-        "<u4" => (4, |bytes| u32::from_le_bytes(read(bytes)) as f32),
-        "<i4" => (4, |bytes| i32::from_le_bytes(read(bytes)) as f32),
+        "<f2" => (2, |bytes| f16::from_le_bytes(read(bytes)).to_f64()),
+        "<f4" => (4, |bytes| f64::from(f32::from_le_bytes(read(bytes)))),
+        "<f8" => (8, |bytes| f64::from_le_bytes(read(bytes))),
+        "|u1" | "|b1" => (1, |bytes| f64::from(read::<1>(bytes)[0])),
+        "<u4" => (4, |bytes| f64::from(u32::from_le_bytes(read(bytes)))),
+        "<i4" => (4, |bytes| f64::from(i32::from_le_bytes(read(bytes)))),
         _ => return Err(format!("numbers of type `{descr}` are not read; `<f4` is")),
     })
 }
@@ -164,12 +166,12 @@ mod tests {
     #[test]
     fn the_header_is_numpys_own() {
         // numpy.save of zeros((2, 3), "<f4"), NumPy 2: 128 bytes before the numbers.
-        let bytes = header(&[2, 3]);
+        let bytes = header("<f4", &[2, 3]);
         assert_eq!(bytes.len(), 128);
         assert_eq!(&bytes[..10], b"\x93NUMPY\x01\x00v\x00");
         assert!(bytes[10..].starts_with(b"{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }  "));
         assert_eq!(bytes.last(), Some(&b'\n'));
-        assert!(String::from_utf8_lossy(&header(&[7])).contains("'shape': (7,), }"));
+        assert!(String::from_utf8_lossy(&header("<f4", &[7])).contains("'shape': (7,), }"));
     }
 
     #[test]
@@ -180,7 +182,7 @@ mod tests {
             bytes.extend([1, 0, text.len() as u8, 0]);
             bytes.extend(text.bytes());
             bytes.extend([0; 16]);
-            decode(&bytes)
+            decode::<f32>(&bytes)
         };
         assert_eq!(with("(4,)").unwrap().data, [0.0; 4]);
         assert_eq!(with("(2, 2)").unwrap().shape, [2, 2]);

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use tyndall_image::{Image, Meaning, linear_from_srgb, read, read_array, write, write_array};
+use tyndall_image::{Image, Meaning, linear_from_srgb, read, read_array, read_exact, write, write_array};
 
 /// Every kind of number that a float can be, in `channels` channels, 7 × 5 pixels.
 fn numbers(channels: u32) -> Image {
@@ -53,6 +53,29 @@ fn exr_and_npy_are_exact_for_every_meaning() {
         same(&path, &numbers(3), Meaning::Vector);
         (1..=4).for_each(|channels| same(&path, &numbers(channels), Meaning::Data));
     }
+}
+
+/// Beyond 2^24 a float would round them.
+#[test]
+fn whole_numbers_survive_and_files_say_what_they_are() {
+    let folder = folder();
+    let image = Image::new(2, 1, 4, vec![0, 1, (1 << 24) + 1, u32::MAX, u32::MAX - 1, 1 << 31, 70_000, 3]);
+    for name in ["a.exr", "a.npy"] {
+        let path = folder.path().join(name);
+        write(&path, &image, Meaning::Data).unwrap();
+        assert_eq!(read_exact(&path).unwrap(), image.exact(), "{name}");
+        assert_eq!(read(&path).unwrap(), image.floats(), "{name}");
+    }
+    let meta = exr::meta::MetaData::read_from_file(folder.path().join("a.exr"), true).unwrap();
+    let types = meta.headers[0].channels.list.iter().map(|channel| channel.sample_type);
+    assert!(types.eq([exr::prelude::SampleType::U32; 4]));
+    let header = |path: &Path| String::from_utf8_lossy(&std::fs::read(path).unwrap()[..64]).into_owned();
+    assert!(header(&folder.path().join("a.npy")).contains("'descr': '<u4'"));
+    let signed = folder.path().join("b.npy");
+    write_array(&signed, &[3], &[-1, i32::MIN, (1 << 24) + 1]).unwrap();
+    assert!(header(&signed).contains("'descr': '<i4'"));
+    let bytes = std::fs::read(&signed).unwrap();
+    assert_eq!(bytes[bytes.len() - 12..], [-1, i32::MIN, (1 << 24) + 1].map(i32::to_le_bytes).concat());
 }
 
 #[test]

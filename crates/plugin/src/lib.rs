@@ -23,11 +23,11 @@ pub use codes::CODES;
 pub use folder::{Folder, Origin};
 pub use limits::{Limit, SceneFeature};
 pub use manifest::Version;
-pub use pass::{Plugin, Reference, ReferenceInput, RustPass, Shaders};
+pub use pass::{Outputs, Plugin, Reference, ReferenceInput, RustPass, Shaders};
 pub use ports::Need;
 pub use registry::{Registry, RegistryPass};
 pub use search::{SearchPath, find_folders, shader_modules};
 
 // What a pass in Rust needs, under one roof.
-pub use tyndall_gpu::{GpuError, Kernel, PortData, Program, Raster, RasterTargets, Recorder, Setup, wgpu};
+pub use tyndall_gpu::{GpuError, Kernel, Numbers, PortData, Program, Raster, RasterTargets, Recorder, Setup, wgpu};
 pub use tyndall_graph::{Resource, descriptor};

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use tyndall_gpu::{GpuError, PortData, Program, Setup};
+use tyndall_gpu::{GpuError, Numbers, PortData, Program, Setup};
 use tyndall_graph::Resource;
 use tyndall_graph::descriptor::{ParamValue, PassDescriptor};
 use tyndall_shader::Linked;
@@ -40,12 +40,14 @@ impl Plugin {
     }
 }
 
-/// What a pass computes, in double precision on the CPU: what tests hold the pass against. Gives the numbers of each
-/// output that it knows, as a read-back gives them.
+/// What a pass computes, in double precision on the CPU: what tests hold the pass against.
 ///
 /// # Errors
 /// Why it cannot say.
-pub type Reference = fn(&ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String>;
+pub type Reference = fn(&ReferenceInput<'_>) -> Outputs;
+
+/// The numbers of each output that a reference knows, by port, as a read-back gives them; or why it cannot say.
+pub type Outputs = Result<BTreeMap<&'static str, Numbers>, String>;
 
 /// What a pass was given in a frame.
 pub struct ReferenceInput<'a> {

@@ -65,7 +65,7 @@ fn every_pass_renders_over_garbage_without_nan() {
         run_all(&mut executor);
         for port in pass.descriptor.outputs() {
             let name = format!("tested.{}", port.name);
-            let data = content(&executor, &name).data;
+            let data = content(&executor, &name).floats();
             assert!(!data.is_empty() && data.iter().all(|number| !number.is_nan()), "{} in {text}", port.name);
         }
     }
@@ -95,7 +95,7 @@ fn garbage_is_seen() {
     let mut executor = executor(&gpu(), &registry, planned(&registry, text, |_, _| ()));
     executor.poison(f32::NAN).unwrap();
     run_all(&mut executor);
-    assert_eq!(content(&executor, "color").data.iter().filter(|number| number.is_nan()).count(), 2 * 3 * 4);
+    assert_eq!(content(&executor, "color").floats().iter().filter(|number| number.is_nan()).count(), 2 * 3 * 4);
 }
 
 fn is_sentence(text: &str) -> bool {

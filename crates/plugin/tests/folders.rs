@@ -36,7 +36,7 @@ fn first_number(registry: &Registry, pass: &str, port: &str) -> f32 {
     );
     let mut executor = executor(&gpu(), registry, planned(registry, &text, |_, _| ()));
     run_all(&mut executor);
-    content(&executor, "color").data[0]
+    content(&executor, "color").floats()[0]
 }
 
 #[test]

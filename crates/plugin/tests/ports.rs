@@ -2,7 +2,7 @@
 
 mod support;
 
-use support::{bits, content, executor, gpu, planned, registry, run_all, with_plugin};
+use support::{content, executor, gpu, planned, registry, run_all, with_plugin};
 use tyndall_gpu::FrameOptions;
 use tyndall_graph::Roots;
 use tyndall_plugin::Registry;
@@ -44,7 +44,7 @@ fn a_history_begins_as_declared_and_carries_over() {
         assert_eq!(report.passes_run, if matches!(frame, 1 | 4) { 2 } else { 1 });
         let n = f32::from(frame);
         let expected = [100.0 + n, 200.0 + 2.0 * n, 300.0 + 3.0 * n, n].repeat(15);
-        assert_eq!(content(&executor, "sum").data, expected, "frame {frame}");
+        assert_eq!(content(&executor, "sum").floats(), expected, "frame {frame}");
         if frame == 3 {
             executor.poison(f32::NAN).unwrap();
         }
@@ -65,7 +65,7 @@ fn a_source_that_only_a_history_reads_is_carried_over() {
     for frame in 0..4 {
         executor.frame(FrameOptions::default()).unwrap();
         let expected = if frame == 0 { [101.0, 201.0, 301.0, 1.0] } else { [15.0, 17.0, 19.0, 2.0] };
-        assert_eq!(content(&executor, "sum").data, expected.repeat(4), "frame {frame}");
+        assert_eq!(content(&executor, "sum").floats(), expected.repeat(4), "frame {frame}");
     }
 }
 
@@ -89,9 +89,9 @@ fn an_in_out_port_makes_a_new_version_and_leaves_the_old_one() {
         let mut executor = executor(&gpu(), &registry, plan);
         for _ in 0..2 {
             executor.frame(FrameOptions::default()).unwrap();
-            assert_eq!(content(&executor, "a").data, [1.0, 2.0, 3.0, 1.0].repeat(4));
-            assert_eq!(content(&executor, "c").data, [3.0, 4.0, 5.0, 3.0].repeat(4));
-            assert_eq!(content(&executor, "off").data, content(&executor, "c").data);
+            assert_eq!(content(&executor, "a").floats(), [1.0, 2.0, 3.0, 1.0].repeat(4));
+            assert_eq!(content(&executor, "c").floats(), [3.0, 4.0, 5.0, 3.0].repeat(4));
+            assert_eq!(content(&executor, "off").floats(), content(&executor, "c").floats());
         }
     }
 }
@@ -109,9 +109,9 @@ fn what_flows_past_a_pass_that_is_off() {
     let plan = planned(&registry, text, |_, options| options.roots = Roots::All);
     let mut executor = executor(&gpu(), &registry, plan);
     run_all(&mut executor);
-    assert_eq!(content(&executor, "sum").data, [1.0, 2.0, 3.0, 1.0].repeat(2));
-    assert_eq!(content(&executor, "passed").data, [1.0, 2.0, 3.0, 1.0].repeat(2));
-    assert_eq!(content(&executor, "constant").data, [0.0, 0.0, 0.0, 1.0].repeat(2));
+    assert_eq!(content(&executor, "sum").floats(), [1.0, 2.0, 3.0, 1.0].repeat(2));
+    assert_eq!(content(&executor, "passed").floats(), [1.0, 2.0, 3.0, 1.0].repeat(2));
+    assert_eq!(content(&executor, "constant").floats(), [0.0, 0.0, 0.0, 1.0].repeat(2));
 }
 
 /// Every output of a pass that is off can be asked for, a rasteriser's depth too.
@@ -122,11 +122,11 @@ fn constants_of_every_format_can_be_looked_at() {
         outputs: { "depth": "s.depth", "raster": "s.raster_depth", "triangle": "s.triangle", "material": "s.material" })"#;
     let mut executor = executor(&gpu(), &registry, planned(&registry, text, |_, _| ()));
     run_all(&mut executor);
-    assert_eq!(content(&executor, "depth").data, [f32::INFINITY; 2]);
-    assert_eq!(content(&executor, "raster").data, [0.0; 2]);
-    assert_eq!(content(&executor, "triangle").data, [0.0; 2]);
+    assert_eq!(content(&executor, "depth").floats(), [f32::INFINITY; 2]);
+    assert_eq!(content(&executor, "raster").floats(), [0.0; 2]);
+    assert_eq!(content(&executor, "triangle").floats(), [0.0; 2]);
     let material = content(&executor, "material");
-    assert_eq!((material.layers, material.data), (2, [0.0, 0.0, 0.0, 1.0].repeat(4)));
+    assert_eq!((material.layers(), material.floats()), (2, [0.0, 0.0, 0.0, 1.0].repeat(4)));
 }
 
 #[test]
@@ -145,7 +145,7 @@ fn an_absent_optional_input_reads_as_declared() {
     let text = r#"(version: 1, size: (3, 1), passes: { "p": (use: "t.p") }, outputs: { "copied": "p.copied" })"#;
     let mut executor = executor(&gpu(), &registry, planned(&registry, text, |_, _| ()));
     run_all(&mut executor);
-    assert_eq!(content(&executor, "copied").data, [0.25, f32::INFINITY, -1.0, 4.0].repeat(3));
+    assert_eq!(content(&executor, "copied").floats(), [0.25, f32::INFINITY, -1.0, 4.0].repeat(3));
 }
 
 #[test]
@@ -175,9 +175,9 @@ fn buffers_flow_between_passes() {
     let mut executor = executor(&gpu(), &registry, planned(&registry, text, |_, _| ()));
     run_all(&mut executor);
     let data = content(&executor, "mirrored");
-    assert_eq!((data.width, data.height, data.channels, data.is_buffer), (100, 1, 2, true));
+    assert_eq!((data.width(), data.height(), data.channels(), data.is_buffer()), (100, 1, 2, true));
     let expected: Vec<f32> = (0..100_u8).rev().flat_map(|n| [f32::from(n), 0.5]).collect();
-    assert_eq!(data.data, expected);
+    assert_eq!(data.floats(), expected);
 }
 
 #[test]
@@ -207,18 +207,18 @@ fn a_volume_is_written_and_read() {
     executor.poison(f32::NAN).unwrap();
     run_all(&mut executor);
     let data = content(&executor, "doubled");
-    assert_eq!((data.width, data.height, data.layers, data.channels, data.is_image), (3, 4, 5, 4, false));
+    assert_eq!((data.width(), data.height(), data.layers(), data.channels(), data.is_image()), (3, 4, 5, 4, false));
     let texel = |z: u8, y: u8, x: u8| [x, y, z].map(|n| 2.0 * f32::from(n));
     let texels = (0..5).flat_map(|z| (0..4).flat_map(move |y| (0..3).map(move |x| texel(z, y, x))));
-    assert_eq!(data.data, texels.flat_map(|[x, y, z]| [x, y, z, 2.0]).collect::<Vec<_>>());
+    assert_eq!(data.floats(), texels.flat_map(|[x, y, z]| [x, y, z, 2.0]).collect::<Vec<_>>());
 }
 
-/// Written in WGSL, read back as `f32`. Five texels wide, so that rows are padded.
+/// Written in WGSL, read back exactly. Five texels wide, so that rows are padded.
 #[test]
 fn every_format_reads_back_what_was_written() {
     let float = "vec4(0.25, -2.0, 1024.0, 0.0) + f32(id.x)";
     let unorm = "vec4(0.0, 0.2, 1.0, 7.0) + f32(id.x) / 255.0";
-    let uint = "vec4(1u, 70000u, 16777216u, 0u) + vec4(id.x)";
+    let uint = "vec4(0xffffffffu - id.x, 70000u + id.x, 16777217u + id.x, id.x)";
     let cases = [
         ("r32float", float, 1),
         ("rg32float", float, 2),
@@ -244,17 +244,20 @@ fn every_format_reads_back_what_was_written() {
         let mut executor = executor(&gpu, &registry, planned(&registry, text, |_, _| ()));
         run_all(&mut executor);
         let data = content(&executor, "stored");
-        assert_eq!((data.width, data.height, data.layers, data.channels), (5, 3, 1, channels), "{format}");
+        assert_eq!((data.width(), data.height(), data.layers(), data.channels()), (5, 3, 1, channels), "{format}");
         let texel = |x: u8| {
-            let x = f32::from(x);
+            let part = |x: u8| f64::from(f32::from(x) / 255.0);
+            let wide = f64::from(x);
             match format {
-                "rgba8unorm" => [x / 255.0, (51.0 + x) / 255.0, 1.0, 1.0],
-                "r32uint" | "rg32uint" | "rgba32uint" => [1.0 + x, 70000.0 + x, (16_777_216 + x as u32) as f32, x],
-                _ => [0.25 + x, x - 2.0, 1024.0 + x, x],
+                "rgba8unorm" => [part(x), part(51 + x), 1.0, 1.0],
+                "r32uint" | "rg32uint" | "rgba32uint" => {
+                    [4_294_967_295.0 - wide, 70000.0 + wide, 16_777_217.0 + wide, wide]
+                }
+                _ => [0.25 + wide, wide - 2.0, 1024.0 + wide, wide],
             }
         };
-        let row: Vec<f32> = (0..5).flat_map(|x| texel(x)[..channels as usize].to_vec()).collect();
-        assert_eq!(data.data, row.repeat(3), "{format}");
+        let row: Vec<f64> = (0..5).flat_map(|x| texel(x)[..channels as usize].to_vec()).collect();
+        assert_eq!(data.exact().collect::<Vec<f64>>(), row.repeat(3), "{format}");
     }
 }
 
@@ -268,12 +271,12 @@ fn a_depth_buffer_reads_back() {
     executor.poison(f32::NAN).unwrap();
     support::set_scene(&mut executor, &support::scene(""), 0.0);
     run_all(&mut executor);
-    let (depth, raster) = (content(&executor, "depth"), content(&executor, "raster"));
+    let (depth, raster) = (content(&executor, "depth").floats(), content(&executor, "raster").floats());
     let middle = 4 * 9 + 4;
-    let expected = 1e-6 / depth.data[middle];
-    assert!((raster.data[middle] / expected - 1.0).abs() < 1e-3, "{} {expected}", raster.data[middle]);
-    assert_eq!(bits(&raster).len(), 81);
-    assert!(depth.data.iter().zip(&raster.data).all(|(depth, raster)| depth.is_finite() == (*raster > 0.0)));
+    let expected = 1e-6 / depth[middle];
+    assert!((raster[middle] / expected - 1.0).abs() < 1e-3, "{} {expected}", raster[middle]);
+    assert_eq!(raster.len(), 81);
+    assert!(depth.iter().zip(&raster).all(|(depth, raster)| depth.is_finite() == (*raster > 0.0)));
 }
 
 /// A thread writes a row of its own, as many as the manifest says.
@@ -290,5 +293,5 @@ fn a_dispatch_may_say_its_threads() {
     let text = r#"(version: 1, size: (1, 1), passes: { "p": (use: "t.p") }, outputs: { "result": "p.result" })"#;
     let mut executor = executor(&gpu(), &registry, planned(&registry, text, |_, _| ()));
     executor.frame(FrameOptions::default()).unwrap();
-    assert_eq!(content(&executor, "result").data, [0.0, 1.0, 10.0, 11.0, 20.0, 21.0]);
+    assert_eq!(content(&executor, "result").floats(), [0.0, 1.0, 10.0, 11.0, 20.0, 21.0]);
 }

@@ -20,7 +20,7 @@ fn every_port_is_the_same_bit_by_bit() {
     let mut shared_slots = 0;
     for (at, (name, port)) in ports.iter().enumerate() {
         let expected = content(&unshared, name);
-        assert!(expected.data.iter().all(|number| !number.is_nan()), "NaN in `{name}`");
+        assert!(expected.floats().iter().all(|number| !number.is_nan()), "NaN in `{name}`");
         for order in [Order::File, Order::Shuffled(at as u64), Order::Shuffled(100 + at as u64)] {
             let change = |options: &mut PlanOptions| {
                 options.roots = Roots::Ports(vec![*port]);

@@ -15,22 +15,23 @@ pub fn meaning(class: Class) -> Meaning {
     }
 }
 
-/// The content of a texture port as an image; of a buffer, an image of one row.
-pub fn image(data: PortData) -> Image {
-    Image { width: data.width, height: data.height, layers: data.layers, channels: data.channels, data: data.data }
+/// The numbers of a texture port as an image; of a buffer, an image of one row.
+pub fn image<T>(data: &PortData, numbers: Vec<T>) -> Image<T> {
+    let (width, height, layers, channels) = (data.width(), data.height(), data.layers(), data.channels());
+    Image { width, height, layers, channels, data: numbers }
 }
 
 /// The shape of an `.npy` array that holds a port: (height, width, channels) of pictures, colours and vectors with
 /// three, (layers, height, width, channels) of other textures, (elements, numbers) of buffers; one channel makes no axis.
 pub fn shape(data: &PortData) -> Vec<usize> {
-    let (width, height, layers) = (data.width as usize, data.height as usize, data.layers as usize);
-    let mut shape = match (data.is_buffer, data.is_image) {
+    let (width, height, layers) = (data.width() as usize, data.height() as usize, data.layers() as usize);
+    let mut shape = match (data.is_buffer(), data.is_image()) {
         (true, _) => vec![width],
         (false, true) => vec![height, width],
         (false, false) => vec![layers, height, width],
     };
-    if data.channels > 1 {
-        shape.push(data.channels as usize);
+    if data.channels() > 1 {
+        shape.push(data.channels() as usize);
     }
     shape
 }

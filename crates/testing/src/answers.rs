@@ -1,24 +1,22 @@
 //! What references on the CPU have said, so that none is asked the same thing twice.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use tyndall_plugin::{Reference, ReferenceInput};
-
-type Answer = Result<BTreeMap<&'static str, Vec<f32>>, String>;
+use tyndall_plugin::{Outputs, Reference, ReferenceInput};
 
 /// What references on the CPU have said, by what they were asked.
 #[derive(Default)]
 pub(crate) struct Answers {
-    known: Mutex<HashMap<u64, Arc<Answer>>>,
+    known: Mutex<HashMap<u64, Arc<Outputs>>>,
     took: Mutex<Duration>,
 }
 
 impl Answers {
     /// What the reference of a pass says of these inputs.
-    pub fn of(&self, pass: &str, reference: Reference, input: &ReferenceInput<'_>) -> Arc<Answer> {
+    pub fn of(&self, pass: &str, reference: Reference, input: &ReferenceInput<'_>) -> Arc<Outputs> {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         known.entry(question(pass, input)).or_insert_with(|| Arc::new(reference(input))).clone()
     }
@@ -41,8 +39,7 @@ fn question(pass: &str, input: &ReferenceInput<'_>) -> u64 {
     let mut hasher = DefaultHasher::new();
     pass.hash(&mut hasher);
     for (name, data) in &input.inputs {
-        (name, data.width, data.height, data.layers, data.channels).hash(&mut hasher);
-        data.data.iter().for_each(|number| number.to_bits().hash(&mut hasher));
+        (name, data.resource, data.scalar, &data.bytes).hash(&mut hasher);
     }
     for (name, resource) in &input.resources {
         (name, resource).hash(&mut hasher);

@@ -35,7 +35,7 @@ pub(crate) fn map(actual: &Picture, expected: &Picture) -> Result<Vec<f64>, Stri
         return Err(format!("{channels} channels are no colour: FLIP compares grey, or red, green and blue"));
     }
     let texels = (width * height * channels) as usize;
-    let layer = |image: &Image, layer: u32| {
+    let layer = |image: &Image<f64>, layer: u32| {
         let numbers = &image.data[layer as usize * texels..][..texels];
         FlipImageRgb8::with_data(width, height, &rgb8(numbers, channels))
     };
@@ -43,7 +43,7 @@ pub(crate) fn map(actual: &Picture, expected: &Picture) -> Result<Vec<f64>, Stri
     Ok((0..layers).flat_map(errors).map(f64::from).collect())
 }
 
-fn rgb8(numbers: &[f32], channels: u32) -> Vec<u8> {
-    let code = |value: &f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
+fn rgb8(numbers: &[f64], channels: u32) -> Vec<u8> {
+    let code = |value: &f64| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
     numbers.iter().flat_map(|value| std::iter::repeat_n(code(value), if channels == 1 { 3 } else { 1 })).collect()
 }

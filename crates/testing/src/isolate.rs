@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use tyndall_gpu::PortData;
+use tyndall_graph::PortRef;
 use tyndall_graph::descriptor::Role;
-use tyndall_graph::{PortRef, Resource};
 use tyndall_render::Error;
 
 use crate::adapter::AdapterClass;
@@ -122,7 +122,9 @@ fn from_golden(ready: &Ready, port: PortRef, frame: u32) -> Result<Option<PortDa
         return Ok(None);
     }
     let planned = ready.plan.planned(port).ok_or_else(|| format!("its input `{name}` is not planned"))?;
-    let blank = blank(ready.plan.resource(planned));
+    let resource = *ready.plan.resource(planned);
+    let scalar = resource.scalar(ready.plan.port_descriptor(planned));
+    let blank = PortData { resource, scalar, bytes: vec![0; resource.bytes() as usize] };
     let like = Picture::of(&blank, ready.plan.ports[planned as usize].class);
     if !like.fits_golden() {
         return Ok(None);
@@ -133,21 +135,5 @@ fn from_golden(ready: &Ready, port: PortRef, frame: u32) -> Result<Option<PortDa
     if golden.image.data.len() != like.image.data.len() {
         return Err(format!("the golden of its input `{name}` is of another size"));
     }
-    Ok(Some(PortData { data: golden.image.data, ..blank }))
-}
-
-/// What a port of this resource reads as, all numbers 0.
-fn blank(resource: &Resource) -> PortData {
-    let (width, height, layers, channels, is_buffer) = match *resource {
-        Resource::Texture { format, width, height, depth_or_layers, .. } => {
-            (width, height, depth_or_layers, format.channels(), false)
-        }
-        Resource::Buffer { bytes, stride } => {
-            let channels = (stride / 4).max(1);
-            ((bytes / 4) as u32 / channels, 1, 1, channels, true)
-        }
-    };
-    let count = width as usize * height as usize * layers as usize * channels as usize;
-    let is_image = matches!(resource, Resource::Texture { dimension: tyndall_graph::descriptor::Dimension::D2, .. });
-    PortData { width, height, layers, channels, is_buffer, is_image, data: vec![0.0; count] }
+    Ok(Some(PortData::from_numbers(blank.resource, blank.scalar, golden.image.data)))
 }

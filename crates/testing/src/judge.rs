@@ -110,7 +110,7 @@ impl Judge<'_> {
     fn reference(&self, tapped: &Tapped, actual: &Picture, outcome: &mut PortOutcome) {
         let Some(reference) = &tapped.reference else { return };
         let what = format!("reference ({})", reference.provenance);
-        outcome.checks.push(match tyndall_image::read(&reference.file) {
+        outcome.checks.push(match tyndall_image::read_exact(&reference.file) {
             Ok(image) => {
                 let wanted = actual.compared().channels;
                 let expected = Picture::new(golden::as_port(image.first_channels(wanted), actual.class), actual.class);
@@ -193,7 +193,7 @@ impl Computing<'_> {
         let answer = self.answers.of(&descriptor.name, reference, &input);
         let outputs = answer.as_ref().as_ref().map_err(String::clone)?;
         let port = &self.loaded.graph.port(port).name;
-        let data = outputs.get(port.as_str()).ok_or_else(|| format!("the reference says nothing of `{port}`"))?.clone();
+        let data = outputs.get(port.as_str()).ok_or_else(|| format!("the reference says nothing of `{port}`"))?.exact();
         if data.len() != actual.image.data.len() {
             return Err(format!(
                 "the reference gives {} numbers, and the port holds {}",

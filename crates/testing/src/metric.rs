@@ -106,7 +106,7 @@ impl Metric {
             Metric::Absolute { tolerance, .. } => tolerance,
             Metric::RelativeRmse { tolerance } => {
                 let numbers = expected.compared().data.into_iter().filter(|value| value.is_finite());
-                let (sum, count) = numbers.fold((0.0, 0), |(sum, count), v| (sum + f64::from(v).powi(2), count + 1));
+                let (sum, count) = numbers.fold((0.0, 0), |(sum, count), v| (sum + v.powi(2), count + 1));
                 tolerance * (sum / f64::from(count.max(1))).sqrt()
             }
             Metric::Flip { mean, p99 } => p99.unwrap_or(mean),
@@ -230,9 +230,9 @@ fn alpha_mistake(actual: &Picture, expected: &Picture) -> Result<Option<String>,
         .then(|| format!("alpha differs in {} pixels, by up to {:.3e}", found.failing, found.largest)))
 }
 
-fn largest(image: &Image) -> f64 {
+fn largest(image: &Image<f64>) -> f64 {
     let finite = image.data.iter().filter(|value| value.is_finite());
-    finite.fold(0.0, |most, value| most.max(f64::from(value.abs())))
+    finite.fold(0.0, |most, value| most.max(value.abs()))
 }
 
 impl std::fmt::Display for Metric {
@@ -312,7 +312,7 @@ mod tests {
         let buffer = |small: f32| {
             let data = (0..8).flat_map(|_| [small, 1000.0, 0.0]).collect();
             let image = Image { width: 3, height: 8, layers: 1, channels: 1, data };
-            Picture { image, class: Class::Data, is_buffer: true }
+            Picture { is_buffer: true, ..Picture::new(image, Class::Data) }
         };
         let metric = Metric::RelativeRmse { tolerance: 0.01 };
         assert!(!metric.judge(&buffer(1e-6), &buffer(2e-6)).passed);

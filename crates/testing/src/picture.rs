@@ -10,8 +10,8 @@ pub const MOST_SIDE: u32 = 96;
 /// The content of a port, and what its channels mean.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
-    /// Its numbers. A buffer is an image of one channel: a row for each element.
-    pub image: Image,
+    /// Its numbers, each exactly as the port holds it. A buffer is an image of one channel: a row for each element.
+    pub image: Image<f64>,
     /// What the channels mean.
     pub class: Class,
     /// It is a buffer: each number of an element means something else.
@@ -20,27 +20,28 @@ pub struct Picture {
 
 impl Picture {
     /// An image whose channels mean this.
-    pub fn new(image: Image, class: Class) -> Self {
-        Self { image, class, is_buffer: false }
+    pub fn new<T: Copy + Into<f64>>(image: Image<T>, class: Class) -> Self {
+        Self { image: image.exact(), class, is_buffer: false }
     }
 
     /// The same with other numbers.
     #[must_use]
-    pub fn with(&self, image: Image) -> Self {
+    pub fn with(&self, image: Image<f64>) -> Self {
         Self { image, ..*self }
     }
 
     /// The content of a port.
     pub fn of(data: &PortData, class: Class) -> Self {
-        let image = match data.is_buffer {
-            true => Image { width: data.channels, height: data.width, layers: 1, channels: 1, data: data.data.clone() },
-            false => tyndall_render::image(data.clone()),
+        let image = tyndall_render::image(data, data.exact().collect());
+        let image = match data.is_buffer() {
+            true => Image { width: image.channels, height: image.width, channels: 1, ..image },
+            false => image,
         };
-        Self { image, class, is_buffer: data.is_buffer }
+        Self { image, class, is_buffer: data.is_buffer() }
     }
 
     /// The channels that mean something, but for alpha.
-    pub fn compared(&self) -> Image {
+    pub fn compared(&self) -> Image<f64> {
         match self.class {
             Class::Color | Class::Display | Class::Vector => self.image.first_channels(3),
             Class::Scalar | Class::RasterDepth => self.image.first_channels(1),
@@ -86,10 +87,10 @@ impl Picture {
 
     /// What is compared as a whole: of data ports each channel of each layer, and each number of a buffer's elements, for
     /// they mean different things; everything of others.
-    pub(crate) fn planes(&self) -> Vec<Image> {
+    pub(crate) fn planes(&self) -> Vec<Image<f64>> {
         let image = self.compared();
         let (width, texels) = (image.width as usize, (image.width * image.height) as usize);
-        let every = |first: usize, step: usize, count: usize| -> Vec<f32> {
+        let every = |first: usize, step: usize, count: usize| -> Vec<f64> {
             image.data[first..].iter().step_by(step).take(count).copied().collect()
         };
         if self.is_buffer {
@@ -109,7 +110,7 @@ impl Picture {
     pub(crate) fn figures(&self) -> String {
         let image = self.compared();
         let numbers = image.data.iter().copied().filter(|number| number.is_finite());
-        let (least, largest) = numbers.clone().fold((f32::INFINITY, f32::NEG_INFINITY), |(least, largest), number| {
+        let (least, largest) = numbers.clone().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, largest), number| {
             (least.min(number), largest.max(number))
         });
         let count = numbers.clone().count();
@@ -117,7 +118,7 @@ impl Picture {
         let finite = match count {
             0 => "no number".to_owned(),
             _ => {
-                let mean = numbers.map(f64::from).sum::<f64>() / count as f64;
+                let mean = numbers.sum::<f64>() / count as f64;
                 format!("mean {mean:.4e}, {least:.4e} to {largest:.4e}")
             }
         };
@@ -125,7 +126,7 @@ impl Picture {
     }
 
     /// Alpha of a colour that has one.
-    pub fn alpha(&self) -> Option<Image> {
+    pub fn alpha(&self) -> Option<Image<f64>> {
         let colour = matches!(self.class, Class::Color | Class::Display) && self.image.channels == 4;
         let data = || self.image.data.iter().skip(3).step_by(4).copied().collect();
         colour.then(|| Image { channels: 1, data: data(), ..self.image })
@@ -138,7 +139,7 @@ mod tests {
 
     #[test]
     fn what_is_too_large_is_thinned_along_every_axis() {
-        let data = (0..6 * 4 * 2).map(|number| number as f32).collect();
+        let data = (0..6 * 4 * 2).map(f64::from).collect();
         let picture = Picture::new(Image { width: 6, height: 4, layers: 2, channels: 1, data }, Class::Data);
         assert_eq!(picture.thinned_to(7), picture);
         let thinned = picture.thinned_to(6);
@@ -149,7 +150,7 @@ mod tests {
     /// A side that is too long is thinned though there are few texels in all, and the other is not.
     #[test]
     fn no_side_is_too_long() {
-        let data = (0..8 * 2).map(|number| number as f32).collect();
+        let data = (0..8 * 2).map(f64::from).collect();
         let picture = Picture::new(Image { width: 8, height: 2, layers: 1, channels: 1, data }, Class::Data);
         let thinned = picture.thinned_to(4);
         assert_eq!((thinned.image.width, thinned.image.height), (4, 2));
@@ -160,7 +161,7 @@ mod tests {
     /// The numbers of an element mean different things: none is left out for good.
     #[test]
     fn a_buffer_keeps_whole_elements() {
-        let data = (0..12).map(|number| number as f32).collect();
+        let data = (0..12).map(f64::from).collect();
         let image = Image { width: 3, height: 4, layers: 1, channels: 1, data };
         let buffer = Picture { image, class: Class::Data, is_buffer: true };
         assert_eq!(buffer.thinned_to(3).image.data, [0.0, 1.0, 2.0, 6.0, 7.0, 8.0]);

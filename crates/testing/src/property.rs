@@ -19,7 +19,7 @@ pub(crate) fn judge(
         Property::Finite => numbers(&image, "is infinite or NaN", |value| value.is_finite()),
         Property::NonNegative => numbers(&image, "is negative or NaN", |value| value >= 0.0),
         Property::Range(low, high) => {
-            let within = |value: f32| (*low..=*high).contains(&f64::from(value));
+            let within = |value: f64| (*low..=*high).contains(&value);
             numbers(&image, &format!("is outside {low}..{high}"), within)
         }
         Property::AlphaOne => match picture.alpha() {
@@ -30,9 +30,9 @@ pub(crate) fn judge(
         Property::Varies => {
             let mut texels = image.data.chunks_exact(image.channels.max(1) as usize);
             let first = texels.next().unwrap_or_default();
-            let differs = |(a, b): (&f32, &f32)| a != b && !a.is_nan() && !b.is_nan();
+            let differs = |(a, b): (&f64, &f64)| a != b && !a.is_nan() && !b.is_nan();
             let varies = texels.any(|texel| texel.iter().zip(first).any(differs));
-            let figures = if varies { "not blank".to_owned() } else { format!("every texel is {first:?}") };
+            let figures = if varies { "not blank".to_owned() } else { format!("every texel is {}", shortest(first)) };
             Judgement::new(varies, figures, if varies { 0.0 } else { f64::INFINITY })
         }
         Property::AtMost { port, within } => match named(port) {
@@ -77,19 +77,28 @@ fn fails(why: &str) -> Judgement {
 }
 
 /// Every number must do; says how many do not, and the first.
-fn numbers(image: &Image, what: &str, does: impl Fn(f32) -> bool) -> Judgement {
+fn numbers(image: &Image<f64>, what: &str, does: impl Fn(f64) -> bool) -> Judgement {
     let wrong: Vec<usize> = (0..image.data.len()).filter(|index| !does(image.data[*index])).collect();
     let Some(first) = wrong.first() else {
         return Judgement::new(!image.data.is_empty(), "every number".to_owned(), 0.0);
     };
     let texel = first / image.channels.max(1) as usize;
     let (x, y) = (texel % image.width.max(1) as usize, texel / image.width.max(1) as usize);
-    let (count, all, value) = (wrong.len(), image.data.len(), image.data[*first]);
+    let (count, all, value) = (wrong.len(), image.data.len(), shortest(&image.data[*first..=*first]));
     fails(&format!("{count} of {all} numbers fail: at {x},{y} {value} {what}"))
 }
 
-fn vectors(image: &Image, within: f64, or_zero: bool) -> Judgement {
-    let length = |vector: &[f32]| vector.iter().map(|value| f64::from(*value).powi(2)).sum::<f64>().sqrt();
+/// Numbers with as few digits as tell them from other 32-bit floats, where they are such.
+fn shortest(numbers: &[f64]) -> String {
+    let number = |number: &f64| match *number as f32 {
+        float if f64::from(float) == *number => format!("{float:?}"),
+        _ => format!("{number:?}"),
+    };
+    numbers.iter().map(number).collect::<Vec<_>>().join(", ")
+}
+
+fn vectors(image: &Image<f64>, within: f64, or_zero: bool) -> Judgement {
+    let length = |vector: &[f64]| vector.iter().map(|value| value.powi(2)).sum::<f64>().sqrt();
     let lengths =
         image.data.chunks_exact(image.channels as usize).map(length).filter(|length| !(or_zero && *length == 0.0));
     let worst = lengths
@@ -100,14 +109,13 @@ fn vectors(image: &Image, within: f64, or_zero: bool) -> Judgement {
 }
 
 /// No number is more than the bound, but by this part of it.
-pub(crate) fn at_most(image: &Image, bound: &Image, within: f64) -> Judgement {
+pub(crate) fn at_most(image: &Image<f64>, bound: &Image<f64>, within: f64) -> Judgement {
     if (image.width, image.height, image.layers, image.channels)
         != (bound.width, bound.height, bound.layers, bound.channels)
     {
         return fails("the pictures are of different size");
     }
-    let more = |(value, bound): (&f32, &f32)| {
-        let (value, bound) = (f64::from(*value), f64::from(*bound));
+    let more = |(&value, &bound): (&f64, &f64)| {
         let more = if value == bound || bound == f64::INFINITY && !value.is_nan() {
             0.0
         } else {
@@ -143,14 +151,13 @@ pub(crate) fn sum(parts: impl Iterator<Item = Result<Picture, String>>) -> Resul
     total.ok_or_else(|| "there is nothing to add".to_owned())
 }
 
-fn mean(image: &Image, value: &[f64], within: f64) -> Judgement {
+fn mean(image: &Image<f64>, value: &[f64], within: f64) -> Judgement {
     let channels = image.channels as usize;
     if value.len() != 1 && value.len() != channels {
         return fails(&format!("the mean of {channels} channels is asked for as {} numbers", value.len()));
     }
     let count = (image.data.len() / channels.max(1)).max(1) as f64;
-    let means = (0..channels)
-        .map(|channel| image.data.iter().skip(channel).step_by(channels).map(|v| f64::from(*v)).sum::<f64>() / count);
+    let means = (0..channels).map(|channel| image.data.iter().skip(channel).step_by(channels).sum::<f64>() / count);
     let means: Vec<f64> = means.collect();
     let wanted = |channel: usize| value[if value.len() == 1 { 0 } else { channel }];
     let off =

@@ -64,7 +64,7 @@ fn scaled(picture: &Picture, factor: f64) -> Picture {
     let (alpha, channels) = (picture.alpha().is_some(), picture.image.channels as usize);
     for (index, value) in scaled.image.data.iter_mut().enumerate() {
         if !(alpha && index % channels == 3) {
-            *value = (f64::from(*value) * factor) as f32;
+            *value *= factor;
         }
     }
     scaled

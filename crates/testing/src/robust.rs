@@ -1,7 +1,5 @@
 //! The same graph in another order, with other memory, and again: every port must come out the same, bit by bit.
 
-use std::sync::Arc;
-
 use tyndall_gpu::PortData;
 use tyndall_graph::PortRef;
 use tyndall_render::Error;
@@ -69,14 +67,13 @@ fn differing(ready: &Ready, name: &str, own: &Rendered, other: &Rendered) -> Opt
     })
 }
 
-/// The bits of every number; an unordered list sorted by its elements.
-fn comparable(data: &Arc<PortData>, unordered: bool) -> Vec<u32> {
-    let bits = data.data.iter().map(|number| number.to_bits());
+/// The bytes of every number; an unordered list sorted by its elements.
+fn comparable(data: &PortData, unordered: bool) -> Vec<&[u8]> {
+    let size = data.scalar.bytes();
     if !unordered {
-        return bits.collect();
+        return data.bytes.chunks(size).collect();
     }
-    let bits: Vec<u32> = bits.collect();
-    let mut elements: Vec<&[u32]> = bits.chunks(data.channels.max(1) as usize).collect();
+    let mut elements: Vec<&[u8]> = data.bytes.chunks(size * data.channels() as usize).collect();
     elements.sort_unstable();
-    elements.concat()
+    elements.into_iter().flat_map(|element| element.chunks(size)).collect()
 }

@@ -48,8 +48,8 @@ pub struct Session {
 /// What a port was made from, which port of the pass it is, and of one that depends on frames before the frame.
 pub(crate) type ResultKey = (Fingerprint, u32, Option<u32>);
 
-/// Results that are held at most, numbers: 1 GiB. Beyond it all are let go, and sharing begins anew.
-const MOST_HELD: usize = 1 << 28;
+/// Results that are held at most, bytes: 1 GiB. Beyond it all are let go, and sharing begins anew.
+const MOST_HELD: usize = 1 << 30;
 
 /// How much sharing results between tests has saved, and what took time.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -370,8 +370,7 @@ impl Session {
         let prints = self.prints(loaded, &original, plan, rendered.frame);
         let differs = |(port, data): (&PortRef, &Arc<PortData>)| {
             let before = self.results.get(&result_key(plan, &prints, plan.planned(*port)?, rendered.frame)?)?;
-            let same = before.data.iter().zip(&data.data).all(|(a, b)| a.to_bits() == b.to_bits());
-            Some(!same)
+            Some(before.bytes != data.bytes)
         };
         let changed = rendered.ports.iter().any(|port| differs(port) == Some(true));
         if let Some(substitute) = &mut self.substitute {
@@ -384,8 +383,7 @@ impl Session {
         for port in 0..executor.plan().ports.len() as u32 {
             let known = key(executor.plan(), prints, port).and_then(|key| self.known(&key));
             if let Some(data) = known.filter(|_| can_be_given(executor.plan().resource(port))) {
-                let texels = data.texels(executor.plan().resource(port));
-                executor.give(port, &texels)?;
+                executor.give(port, &data.bytes)?;
             }
         }
         Ok(())
@@ -396,11 +394,11 @@ impl Session {
             substitute.results.insert(key, data.clone());
             return;
         }
-        if self.held + data.data.len() > MOST_HELD {
+        if self.held + data.bytes.len() > MOST_HELD {
             self.results.clear();
             self.held = 0;
         }
-        self.held += data.data.len();
+        self.held += data.bytes.len();
         self.results.insert(key, data.clone());
     }
 
@@ -444,8 +442,7 @@ impl Session {
         for (port, data) in inputs {
             let executor = &mut running.executor;
             if let Some(planned) = executor.plan().planned(*port) {
-                let texels = data.texels(executor.plan().resource(planned));
-                executor.give(planned, &texels)?;
+                executor.give(planned, &data.bytes)?;
             }
         }
         running.frame(FrameOptions { frame, ..FrameOptions::default() })?;
@@ -495,12 +492,7 @@ fn encode(loaded: &Loaded, plan: &Plan, frame: u32) -> Option<Encoded> {
     loaded.scene.as_ref().map(|scene| scene.encode_for(time, aspect, &|name| plan.reads(name)))
 }
 
-/// Nothing can be copied into a rasteriser's depth buffer, and whole numbers beyond 24 bits would lose some.
+/// Nothing can be copied into a rasteriser's depth buffer.
 fn can_be_given(resource: &Resource) -> bool {
-    match resource {
-        Resource::Texture { format, .. } => {
-            !matches!(format, Format::Depth32Float | Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint)
-        }
-        Resource::Buffer { .. } => true,
-    }
+    !matches!(resource, Resource::Texture { format: Format::Depth32Float, .. })
 }

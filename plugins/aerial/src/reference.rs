@@ -5,14 +5,12 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 use tyndall_plugin::descriptor::ParamValue;
-use tyndall_plugin::{PortData, ReferenceInput};
+use tyndall_plugin::{Outputs, PortData, ReferenceInput};
 use tyndall_shaders::ray::ray_of_pixel;
 use tyndall_shaders::scene::{Light, Scene};
 
 use crate::air::Air;
 use crate::atmosphere::Atmosphere;
-
-type Outputs = Result<BTreeMap<&'static str, Vec<f32>>, String>;
 
 /// The words of `Air` of `air.wgsl`, in order; whole numbers as their bits.
 pub(crate) fn atmosphere(input: &ReferenceInput<'_>) -> Outputs {
@@ -88,17 +86,17 @@ fn picture(
     for y in 0..size[1] {
         for x in 0..size[0] {
             let index = (y * size[0] + x) as usize;
-            let way = depth.map_or(f64::INFINITY, |depth| f64::from(depth.data[index * depth.channels as usize]));
+            let way = depth.map_or(f64::INFINITY, |depth| depth.number(index * depth.channels() as usize));
             let ray = ray_of_pixel(&scene.camera, [x, y], size).direction;
             data.extend(texel(&air, scene, index, ray, way).extend(1.0).as_vec4().to_array());
         }
     }
-    Ok(BTreeMap::from([(port, data)]))
+    Ok(BTreeMap::from([(port, data.into())]))
 }
 
 /// The air as a pass was given it: see `Air` of `air.wgsl`.
 fn air(data: &PortData) -> Result<Air, String> {
-    let number = |at: usize| data.data.get(at).map(|word| f64::from(*word)).ok_or("the air is cut short".to_owned());
+    let number = |at: usize| data.get(at).ok_or("the air is cut short".to_owned());
     let vector = |at: usize| Ok::<_, String>(DVec3::new(number(at)?, number(at + 1)?, number(at + 2)?));
     let g = |at: usize| number(at).map(|rho| (1.0 - rho) / (1.0 + rho));
     let (dome, from_space) = (number(11)?, (number(15)? as f32).to_bits() != 0);
@@ -124,8 +122,8 @@ fn suns(scene: &Scene) -> impl Iterator<Item = (DVec3, DVec3)> + '_ {
 /// A texel of an input, or what stands for one that is not fed.
 fn color(data: Option<&PortData>, texel: usize, without: f64) -> DVec3 {
     let Some(data) = data else { return DVec3::splat(without) };
-    let at = texel * data.channels as usize;
-    DVec3::from_array(std::array::from_fn(|channel| f64::from(data.data[at + channel])))
+    let at = texel * data.channels() as usize;
+    DVec3::from_array(std::array::from_fn(|channel| data.number(at + channel)))
 }
 
 fn vector(input: &ReferenceInput<'_>, param: &str) -> Result<DVec3, String> {

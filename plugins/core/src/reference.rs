@@ -4,12 +4,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use tyndall_plugin::descriptor::ParamValue;
-use tyndall_plugin::{PortData, ReferenceInput};
+use tyndall_plugin::{Outputs, PortData, ReferenceInput};
 use tyndall_shaders::colour::srgb_from_linear;
 use tyndall_shaders::medium::{effective_way, opacity, transmittance};
 use tyndall_shaders::ray::ray_of_pixel;
-
-type Outputs = Result<BTreeMap<&'static str, Vec<f32>>, String>;
 
 /// Red, green and blue.
 type Rgb = [f64; 3];
@@ -27,8 +25,8 @@ fn picture(port: &'static str, [width, height]: [u32; 2], texel: impl Fn(u32, u3
 /// A texel of an input; 0 where nothing is fed.
 fn rgb(data: Option<&PortData>, x: u32, y: u32) -> Rgb {
     let Some(data) = data else { return [0.0; 3] };
-    let at = ((y * data.width + x) * data.channels) as usize;
-    std::array::from_fn(|channel| f64::from(data.data[at + channel]))
+    let at = ((y * data.width() + x) * data.channels()) as usize;
+    std::array::from_fn(|channel| data.number(at + channel))
 }
 
 fn vector(input: &ReferenceInput<'_>, param: &str) -> Result<Rgb, String> {
@@ -84,7 +82,7 @@ pub(crate) fn image(input: &ReferenceInput<'_>) -> Outputs {
         color.extend(rgb);
         color.push(if channels == 4 { number(texel, 3) } else { 1.0 });
     }
-    Ok(BTreeMap::from([("color", color)]))
+    Ok(BTreeMap::from([("color", color.into())]))
 }
 
 /// Airlight and surface; behind both, where a ray meets nothing, the background as far as the medium lets it through; and
@@ -93,7 +91,7 @@ pub(crate) fn compose(input: &ReferenceInput<'_>) -> Outputs {
     let (surface, airlight) = (input.inputs.get("surface").copied(), input.inputs.get("airlight").copied());
     let (depth, scene, size) = (input.input("depth")?, input.scene()?, input.size("radiance")?);
     picture("radiance", size, |x, y| {
-        let way = f64::from(depth.data[((y * depth.width + x) * depth.channels) as usize]);
+        let way = depth.number(((y * depth.width() + x) * depth.channels()) as usize);
         let ray = ray_of_pixel(&scene.camera, [x, y], size);
         let effective = effective_way(&scene.height_fog, ray.origin.y, ray.direction.y, way);
         let mut sum = opacity(&scene.medium, effective) * scene.ambient;
@@ -129,7 +127,7 @@ pub(crate) fn tonemap(input: &ReferenceInput<'_>) -> Outputs {
 pub(crate) fn resize(input: &ReferenceInput<'_>) -> Outputs {
     let from = input.input("input")?;
     let size = input.size("resized")?;
-    let (across, down) = (weights(size[0], from.width), weights(size[1], from.height));
+    let (across, down) = (weights(size[0], from.width()), weights(size[1], from.height()));
     picture("resized", size, |x, y| {
         let mut sum = [0.0; 3];
         for (row, part_down) in &down[y as usize] {

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use glam::{DVec2, DVec3};
-use tyndall_plugin::ReferenceInput;
+use tyndall_plugin::{Outputs, ReferenceInput};
 use tyndall_shaders::colour::linear_from_srgb;
 use tyndall_shaders::ray::{Ray, ray_of_pixel};
 use tyndall_shaders::scene::{Camera, Surfaces, Texture, Triangle, Wrap};
@@ -17,7 +17,7 @@ use tyndall_shaders::scene::{Camera, Surfaces, Texture, Triangle, Wrap};
 const RASTER_DEPTH: f64 = 1e-6;
 
 /// Every port of `core.gbuffer`.
-pub(crate) fn gbuffer(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String> {
+pub(crate) fn gbuffer(input: &ReferenceInput<'_>) -> Outputs {
     let (camera, surfaces, size) = (&input.scene()?.camera, input.surfaces()?, input.size("depth")?);
     let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
     let rays: Vec<Ray> = pixels.map(|pixel| ray_of_pixel(camera, pixel, size)).collect();
@@ -31,7 +31,7 @@ pub(crate) fn gbuffer(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static st
         ("depth", hits.iter().map(|hit| hit.as_ref().map_or(f32::INFINITY, |hit| hit.way as f32)).collect()),
         ("normal", seen.iter().flat_map(|seen| seen.normal.extend(1.0).as_vec4().to_array()).collect()),
         ("material", layers.flat_map(|layer| layer.map(|number| number as f32)).collect()),
-        ("triangle", hits.iter().map(|hit| hit.as_ref().map_or(0.0, |hit| (hit.triangle + 1) as f32)).collect()),
+        ("triangle", hits.iter().map(|hit| hit.as_ref().map_or(0, |hit| hit.triangle as u32 + 1)).collect()),
         ("raster_depth", rays.iter().zip(&hits).map(|both| raster_depth(both) as f32).collect()),
     ]))
 }

@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use tyndall_plugin::{PortData, ReferenceInput};
+use tyndall_plugin::{Outputs, PortData, ReferenceInput};
 use tyndall_shaders::medium::opacity;
 use tyndall_shaders::scene::Medium;
 
 use crate::grid::{Grid, froxel};
 
 /// The port of `froxel.airlight`.
-pub(crate) fn reference(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String> {
+pub(crate) fn reference(input: &ReferenceInput<'_>) -> Outputs {
     let (accumulated, medium) = (input.input("accumulated")?, &input.scene()?.medium);
     let grid = Grid::read(input.input("grid")?, accumulated)?;
     let (depth, size) = (input.inputs.get("depth"), input.size("radiance")?);
@@ -18,17 +18,17 @@ pub(crate) fn reference(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static 
     for y in 0..size[1] {
         for x in 0..size[0] {
             let at = (y * size[0] + x) as usize;
-            let way = depth.map_or(f64::INFINITY, |depth| f64::from(depth.data[at * depth.channels as usize]));
+            let way = depth.map_or(f64::INFINITY, |depth| depth.number(at * depth.channels() as usize));
             let pixel = pixel(accumulated, medium, &grid, ([x, y], size), way.min(grid.far));
             radiance.extend(pixel.extend(1.0).as_vec4().to_array());
         }
     }
-    Ok(BTreeMap::from([("radiance", radiance)]))
+    Ok(BTreeMap::from([("radiance", radiance.into())]))
 }
 
 /// Linear between the centres of the four nearest columns.
 fn pixel(accumulated: &PortData, medium: &Medium, grid: &Grid, at: ([u32; 2], [u32; 2]), way: f64) -> DVec3 {
-    let columns = [accumulated.width, accumulated.height];
+    let columns = [accumulated.width(), accumulated.height()];
     let place: [f64; 2] = std::array::from_fn(|axis| {
         (f64::from(at.0[axis]) + 0.5) / f64::from(at.1[axis]) * f64::from(columns[axis]) - 0.5
     });

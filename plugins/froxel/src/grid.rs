@@ -33,8 +33,8 @@ impl Grid {
 
     /// The grid as a pass was given it: near and far, and as many slices as its texture has.
     pub(crate) fn read(data: &PortData, texture: &PortData) -> Result<Self, String> {
-        match data.data[..] {
-            [near, far, ..] => Ok(Self { near: f64::from(near), far: f64::from(far), slices: texture.layers }),
+        match (data.get(0), data.get(1)) {
+            (Some(near), Some(far)) => Ok(Self { near, far, slices: texture.layers() }),
             _ => Err("the grid is cut short".to_owned()),
         }
     }
@@ -49,11 +49,11 @@ pub fn ray_of_point(camera: &Camera, at: DVec2) -> Ray {
 
 /// A froxel of a texture; columns beyond the edge are those at the edge.
 pub(crate) fn froxel(data: &PortData, column: [i64; 2], slice: u32) -> DVec3 {
-    let [x, y] =
-        [(column[0], data.width), (column[1], data.height)].map(|(at, size)| at.clamp(0, i64::from(size) - 1) as usize);
-    let texel = (slice as usize * data.height as usize + y) * data.width as usize + x;
-    let first = texel * data.channels as usize;
-    DVec3::from_array(std::array::from_fn(|channel| f64::from(data.data[first + channel])))
+    let [x, y] = [(column[0], data.width()), (column[1], data.height())]
+        .map(|(at, size)| at.clamp(0, i64::from(size) - 1) as usize);
+    let texel = (slice as usize * data.height() as usize + y) * data.width() as usize + x;
+    let first = texel * data.channels() as usize;
+    DVec3::from_array(std::array::from_fn(|channel| data.number(first + channel)))
 }
 
 #[cfg(test)]

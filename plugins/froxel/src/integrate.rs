@@ -3,18 +3,18 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use tyndall_plugin::ReferenceInput;
+use tyndall_plugin::{Outputs, ReferenceInput};
 use tyndall_shaders::scene::Medium;
 
 use crate::grid::{Grid, froxel};
 
 /// Both ports of `froxel.integrate`.
-pub(crate) fn reference(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String> {
+pub(crate) fn reference(input: &ReferenceInput<'_>) -> Outputs {
     let (scattered, medium) = (input.input("scattered")?, &input.scene()?.medium);
     let grid = Grid::read(input.input("grid")?, scattered)?;
-    let columns = || (0..scattered.height).flat_map(|y| (0..scattered.width).map(move |x| [x, y].map(i64::from)));
+    let columns = || (0..scattered.height()).flat_map(|y| (0..scattered.width()).map(move |x| [x, y].map(i64::from)));
     let mut sums = vec![DVec3::ZERO; columns().count()];
-    let mut accumulated = Vec::with_capacity(scattered.data.len());
+    let mut accumulated = Vec::with_capacity(scattered.len());
     for slice in 0..grid.slices {
         let seen = seen(medium, grid.border(slice), grid.border(slice + 1));
         for (sum, column) in sums.iter_mut().zip(columns()) {
@@ -22,8 +22,8 @@ pub(crate) fn reference(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static 
             accumulated.extend(rgba(*sum));
         }
     }
-    let whole = sums.into_iter().flat_map(rgba).collect();
-    Ok(BTreeMap::from([("accumulated", accumulated), ("whole", whole)]))
+    let whole = sums.into_iter().flat_map(rgba);
+    Ok(BTreeMap::from([("accumulated", accumulated.into()), ("whole", whole.collect())]))
 }
 
 /// Of light that is scattered evenly between two distances, how many metres of it reach the eye: the integral of

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
-use tyndall_plugin::{PortData, ReferenceInput, descriptor::ParamValue};
+use tyndall_plugin::{Outputs, ReferenceInput, descriptor::ParamValue};
 use tyndall_shaders::lights::incident;
 use tyndall_shaders::medium::transmittance;
 use tyndall_shaders::phase::phase;
@@ -15,7 +15,7 @@ use tyndall_shaders::shadow_map::is_hidden;
 use crate::grid::{Grid, ray_of_point};
 
 /// Both ports of `froxel.scatter`.
-pub(crate) fn reference(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String> {
+pub(crate) fn reference(input: &ReferenceInput<'_>) -> Outputs {
     let whole = |name: &str| match input.params.get(name) {
         Some(ParamValue::Integer(value)) => u32::try_from(*value).map_err(|_| format!("`{name}` is {value}")),
         _ => Err(format!("`{name}` is no whole number")),
@@ -26,7 +26,8 @@ pub(crate) fn reference(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static 
     let grid = Grid { near, far: far.max(1.001 * near), slices };
     let scene = input.scene()?;
     let shadows = input.params.get("shadows") == Some(&ParamValue::Bool(true));
-    let map = input.inputs.get("shadow_map").copied().filter(|_| shadows);
+    let map = input.inputs.get("shadow_map").filter(|_| shadows).map(|map| (map.floats(), map.width()));
+    let map = map.as_ref().map(|(distances, width)| Map { distances, width: *width });
     let mut scattered = Vec::new();
     for slice in 0..slices {
         for y in 0..columns[1] {
@@ -37,17 +38,18 @@ pub(crate) fn reference(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static 
         }
     }
     let numbers = vec![grid.near as f32, grid.far as f32, 0.0, 0.0];
-    Ok(BTreeMap::from([("scattered", scattered), ("grid", numbers)]))
+    Ok(BTreeMap::from([("scattered", scattered.into()), ("grid", numbers.into())]))
+}
+
+/// A shadow map: distances, and the width of a layer.
+#[derive(Clone, Copy)]
+struct Map<'a> {
+    distances: &'a [f32],
+    width: u32,
 }
 
 /// σ_s·p·E·e^(−σ_t·r), W/(sr m³): its mean over the middles of points³ equal parts of a froxel.
-fn froxel(
-    (scene, map): (&Scene, Option<&PortData>),
-    grid: &Grid,
-    columns: [u32; 2],
-    at: [u32; 3],
-    points: u32,
-) -> DVec3 {
+fn froxel((scene, map): (&Scene, Option<Map<'_>>), grid: &Grid, columns: [u32; 2], at: [u32; 3], points: u32) -> DVec3 {
     let size = DVec2::new(f64::from(columns[0]), f64::from(columns[1]));
     let (start, end) = (grid.border(at[2]), grid.border(at[2] + 1));
     let parts = f64::from(points.pow(3));
@@ -59,7 +61,7 @@ fn froxel(
         let ray = ray_of_point(&scene.camera, place);
         let way = start + middle(z) * (end - start);
         let point = ray.at(way);
-        let hides = |map: &PortData, light: usize| is_hidden(&map.data, map.width, &scene.lights, light, point);
+        let hides = |map: Map<'_>, light: usize| is_hidden(map.distances, map.width, &scene.lights, light, point);
         let lit = |(index, _): &(usize, &Light)| !map.is_some_and(|map| hides(map, *index));
         let lights = scene.lights.iter().enumerate().filter(lit);
         sum += lights.map(|(_, light)| scattered(scene, light, &ray, way, volume)).sum::<DVec3>();

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use tyndall_plugin::descriptor::ParamValue;
-use tyndall_plugin::{PortData, ReferenceInput};
+use tyndall_plugin::{Outputs, ReferenceInput};
 use tyndall_shaders::lights::incident;
 use tyndall_shaders::medium::transmittance;
 use tyndall_shaders::phase::phase;
@@ -20,17 +20,19 @@ const MARCH_DEPTH: f64 = 16.0;
 enum Shadows<'a> {
     None,
     Rays,
-    Map(&'a PortData),
+    /// Distances, and the width of a layer.
+    Map(&'a [f32], u32),
 }
 
 /// The same march with the same steps, from the definition of single scattering: what a light sends to the middle of
 /// each step, through the medium to there and from there. No distance is floored, so lights keep off the rays.
-pub(crate) fn airlight(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String> {
+pub(crate) fn airlight(input: &ReferenceInput<'_>) -> Outputs {
     let scene = input.scene()?;
     let (size, steps) = (input.size("radiance")?, input.number("steps")?);
     let is_on = |name: &str| input.params.get(name) == Some(&ParamValue::Bool(true));
-    let shadows = match input.inputs.get("shadow_map") {
-        Some(map) if is_on("shadows") && is_on("maps") => Shadows::Map(map),
+    let map = input.inputs.get("shadow_map").map(|map| (map.floats(), map.width()));
+    let shadows = match &map {
+        Some((distances, width)) if is_on("shadows") && is_on("maps") => Shadows::Map(distances, *width),
         _ if is_on("shadows") => Shadows::Rays,
         _ => Shadows::None,
     };
@@ -43,13 +45,13 @@ pub(crate) fn airlight(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static s
     for y in 0..size[1] {
         for x in 0..size[0] {
             let ray = ray_of_pixel(&scene.camera, [x, y], size);
-            let far = depth.map_or(f64::INFINITY, |depth| f64::from(depth.data[(y * depth.width + x) as usize]));
+            let far = depth.map_or(f64::INFINITY, |depth| depth.number((y * depth.width() + x) as usize));
             let sum = march(scene, &ray, far.min(MARCH_DEPTH / least), steps, shadows);
             radiance.extend(sum.map(|channel| channel as f32));
             radiance.push(1.0);
         }
     }
-    Ok(BTreeMap::from([("radiance", radiance)]))
+    Ok(BTreeMap::from([("radiance", radiance.into())]))
 }
 
 fn march(scene: &Scene, ray: &Ray, way: f64, steps: f64, shadows: Shadows<'_>) -> [f64; 3] {
@@ -58,7 +60,7 @@ fn march(scene: &Scene, ray: &Ray, way: f64, steps: f64, shadows: Shadows<'_>) -
     let lit: Vec<Vec<[f64; 2]>> =
         scene.lights.iter().map(|light| lit_intervals(light, casters, ray, f64::INFINITY)).collect();
     let reaches = |light: usize, x: f64| match shadows {
-        Shadows::Map(map) => !is_hidden(&map.data, map.width, &scene.lights, light, ray.at(x)),
+        Shadows::Map(distances, width) => !is_hidden(distances, width, &scene.lights, light, ray.at(x)),
         Shadows::None | Shadows::Rays => lit[light].iter().any(|[from, to]| (*from..*to).contains(&x)),
     };
     let mut sum = [0.0; 3];
@@ -76,7 +78,7 @@ fn march(scene: &Scene, ray: &Ray, way: f64, steps: f64, shadows: Shadows<'_>) -
 const NOTHING: f32 = 3e38;
 
 /// The distance of the nearest of all casters, for each texel.
-pub(crate) fn shadow_map(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String> {
+pub(crate) fn shadow_map(input: &ReferenceInput<'_>) -> Outputs {
     let scene = input.scene()?;
     let [width, height] = input.size("distances")?;
     let tiles = Tiles::new(scene.lights.len(), width);

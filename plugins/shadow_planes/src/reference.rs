@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use tyndall_plugin::ReferenceInput;
+use tyndall_plugin::{Outputs, ReferenceInput};
 use tyndall_shaders::airlight::airlight;
 use tyndall_shaders::lights::lit_bit;
 use tyndall_shaders::ray::ray_of_pixel;
 use tyndall_shaders::shadows::{is_lit, lit_intervals};
 
 /// Airlight over the lit intervals, found by brute force among all triangles, and the lights that reach the surface.
-pub(crate) fn exact(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String> {
+pub(crate) fn exact(input: &ReferenceInput<'_>) -> Outputs {
     let scene = input.scene()?;
     let size = input.size("radiance")?;
     let depth = input.input("depth")?;
@@ -17,7 +17,7 @@ pub(crate) fn exact(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str,
     for y in 0..size[1] {
         for x in 0..size[0] {
             let ray = ray_of_pixel(&scene.camera, [x, y], size);
-            let way = f64::from(depth.data[(y * depth.width + x) as usize]);
+            let way = depth.number((y * depth.width() + x) as usize);
             let mut sum = [0.0; 3];
             let mut bits = [0.0_f32; 4];
             for (index, light) in scene.lights.iter().enumerate() {
@@ -36,5 +36,5 @@ pub(crate) fn exact(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str,
             lit.extend(bits);
         }
     }
-    Ok(BTreeMap::from([("radiance", radiance), ("lit", lit)]))
+    Ok(BTreeMap::from([("radiance", radiance.into()), ("lit", lit.into())]))
 }

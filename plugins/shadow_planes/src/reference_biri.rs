@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use tyndall_plugin::ReferenceInput;
 use tyndall_plugin::descriptor::ParamValue;
+use tyndall_plugin::{Outputs, ReferenceInput};
 use tyndall_shaders::airlight::airlight;
 use tyndall_shaders::lights::lit_bit;
 use tyndall_shaders::ray::{Ray, ray_of_pixel};
@@ -33,7 +33,7 @@ struct Crossed {
 }
 
 /// Airlight by the planes, drawn in their order with a stencil or without.
-pub(crate) fn biri(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, Vec<f32>>, String> {
+pub(crate) fn biri(input: &ReferenceInput<'_>) -> Outputs {
     let scene = input.scene()?;
     let size = input.size("radiance")?;
     let depth = input.input("depth")?;
@@ -44,7 +44,7 @@ pub(crate) fn biri(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, 
     for y in 0..size[1] {
         for x in 0..size[0] {
             let ray = ray_of_pixel(&scene.camera, [x, y], size);
-            let way = f64::from(depth.data[(y * depth.width + x) as usize]);
+            let way = depth.number((y * depth.width() + x) as usize);
             let mut sum = DVec3::ZERO;
             let mut bits = [0.0_f32; 4];
             for (index, (light, planes)) in scene.lights.iter().zip(&planes).enumerate() {
@@ -63,7 +63,7 @@ pub(crate) fn biri(input: &ReferenceInput<'_>) -> Result<BTreeMap<&'static str, 
             lit.extend(bits);
         }
     }
-    Ok(BTreeMap::from([("radiance", radiance), ("lit", lit)]))
+    Ok(BTreeMap::from([("radiance", radiance.into()), ("lit", lit.into())]))
 }
 
 /// The planes before the surface that face the eye, less those that do not.

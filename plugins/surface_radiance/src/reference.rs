@@ -13,14 +13,11 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use tyndall_plugin::{PortData, ReferenceInput};
+use tyndall_plugin::{Outputs, PortData, ReferenceInput};
 use tyndall_shaders::lights::{incident, lit_bit};
 use tyndall_shaders::medium::{effective_way, transmittance};
 use tyndall_shaders::ray::{Ray, ray_of_pixel};
 use tyndall_shaders::scene::{HeightFog, Light, Scene};
-
-/// The numbers of each output.
-pub(crate) type Outputs = Result<BTreeMap<&'static str, Vec<f32>>, String>;
 
 /// Direct light of every light, in height fog too: the formula of the contract, from the surface that was fed.
 pub(crate) fn direct(input: &ReferenceInput<'_>) -> Outputs {
@@ -71,7 +68,7 @@ pub(crate) fn of_surfaces(
             radiance.push(1.0);
         }
     }
-    Ok(BTreeMap::from([("radiance", radiance)]))
+    Ok(BTreeMap::from([("radiance", radiance.into())]))
 }
 
 /// Whether a light is among those of a texel; beyond those that there is room for all are.
@@ -88,12 +85,8 @@ fn surface(ray: &Ray, way: f64, normal: [f64; 4], diffuse: [f64; 4], phong: [f64
 
 /// A texel of a layer; channels that are not there are 0.
 pub(crate) fn texel(data: &PortData, layer: u32, x: u32, y: u32) -> [f64; 4] {
-    let at = (((layer * data.height + y) * data.width + x) * data.channels) as usize;
-    std::array::from_fn(
-        |channel| {
-            if channel < data.channels as usize { f64::from(data.data[at + channel]) } else { 0.0 }
-        },
-    )
+    let at = (((layer * data.height() + y) * data.width() + x) * data.channels()) as usize;
+    std::array::from_fn(|channel| if channel < data.channels() as usize { data.number(at + channel) } else { 0.0 })
 }
 
 /// The first three channels.

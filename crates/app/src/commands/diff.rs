@@ -14,7 +14,8 @@ use crate::terminal;
 pub(crate) fn run(verb: &Diff) -> Result<(), Failure> {
     let metrics = verb.by.iter().map(|text| parse_metric(text, &format!("--by {text}")));
     let metrics = metrics.collect::<Result<Vec<Metric>, _>>()?;
-    let (mut image, mut reference) = (tyndall_image::read(&verb.image)?, tyndall_image::read(&verb.reference)?);
+    let (mut image, mut reference) =
+        (tyndall_image::read_exact(&verb.image)?, tyndall_image::read_exact(&verb.reference)?);
     if let (3, 4) | (4, 3) = (image.channels, reference.channels) {
         terminal::line("only one of them has alpha: red, green and blue are compared");
         (image, reference) = (image.first_channels(3), reference.first_channels(3));
@@ -47,7 +48,7 @@ fn usual(display: bool) -> Vec<Metric> {
     metrics
 }
 
-fn picture(image: &Image, seen: bool) -> Picture {
+fn picture(image: &Image<f64>, seen: bool) -> Picture {
     match (seen, image.channels) {
         (true, _) => Picture::new(shown(image), Class::Display),
         (false, 3 | 4) => Picture::new(image.clone(), Class::Color),
@@ -56,8 +57,10 @@ fn picture(image: &Image, seen: bool) -> Picture {
 }
 
 /// Encoded as a screen wants it.
-fn shown(image: &Image) -> Image {
+fn shown(image: &Image<f64>) -> Image {
     let channels = image.channels as usize;
-    let encode = |(index, value): (usize, &f32)| if index % channels == 3 { *value } else { srgb_from_linear(*value) };
-    Image { data: image.data.iter().enumerate().map(encode).collect(), ..*image }
+    let mut shown = image.floats();
+    let colours = shown.data.iter_mut().enumerate().filter(|(index, _)| index % channels != 3);
+    colours.for_each(|(_, value)| *value = srgb_from_linear(*value));
+    shown
 }

@@ -1,7 +1,7 @@
 //! `probe`: the numbers of one pixel.
 
 use tyndall_document::Place;
-use tyndall_gpu::{FrameOptions, Gpu, PipelineCache, PortData};
+use tyndall_gpu::{FrameOptions, Gpu, Numbers, PipelineCache};
 use tyndall_graph::Roots;
 use tyndall_render::Running;
 
@@ -24,21 +24,22 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Probe) -> Result<(), 
     loading::warn_of_unfinished(&running)?;
     let data = running.executor.read(planned)?;
     let (x, y) = verb.pixel;
-    if x >= data.width || y >= data.height {
-        let message = format!("`{}` is {}x{}: pixel {x},{y} is outside", verb.port, data.width, data.height);
+    if x >= data.width() || y >= data.height() {
+        let message = format!("`{}` is {}x{}: pixel {x},{y} is outside", verb.port, data.width(), data.height());
         return Err(Failure::Usage(message));
     }
     let unit = running.executor.plan().port_descriptor(planned).unit.clone();
-    for layer in 0..data.layers {
-        let numbers: Vec<String> = numbers(&data, layer, x, y).iter().map(|number| format!("{number:e}")).collect();
-        let layer = if data.layers > 1 { format!("[{layer}]") } else { String::new() };
+    let numbers = data.numbers();
+    for layer in 0..data.layers() {
+        let first = ((layer * data.height() + y) * data.width() + x) * data.channels();
+        let texel = first as usize..(first + data.channels()) as usize;
+        let numbers: Vec<String> = match &numbers {
+            Numbers::Floats(numbers) => numbers[texel].iter().map(|number| format!("{number:e}")).collect(),
+            Numbers::Whole(numbers) => numbers[texel].iter().map(u32::to_string).collect(),
+            Numbers::Signed(numbers) => numbers[texel].iter().map(i32::to_string).collect(),
+        };
+        let layer = if data.layers() > 1 { format!("[{layer}]") } else { String::new() };
         terminal::line(format!("{}{layer} {x},{y}: {} {unit}", verb.port, numbers.join("  ")).trim_end());
     }
     Ok(())
-}
-
-fn numbers(data: &PortData, layer: u32, x: u32, y: u32) -> &[f32] {
-    let channels = data.channels as usize;
-    let texel = (layer as usize * data.height as usize + y as usize) * data.width as usize + x as usize;
-    &data.data[texel * channels..(texel + 1) * channels]
 }

@@ -27,8 +27,8 @@ fn distinct_orders_of_a_shipped_graph_draw_the_same_bits() {
         let plan = Session::plan(&loaded.graph, Roots::Ports(ports.clone()), variation).unwrap();
         let names: Vec<String> = (0..plan.passes.len() as u32).map(|pass| plan.pass_name(pass).to_owned()).collect();
         let frames = session.render(&loaded, &registry, &ports, &[0], variation).unwrap();
-        let bits = |port: &PortRef| frames[0].ports[port].data.iter().map(|number| number.to_bits()).collect();
-        (names, ports.iter().map(bits).collect::<Vec<Vec<u32>>>())
+        let bytes = |port: &PortRef| frames[0].ports[port].bytes.clone();
+        (names, ports.iter().map(bytes).collect::<Vec<Vec<u8>>>())
     };
     let (as_written, expected) = render(&mut session, Order::File);
     let mut orders = BTreeSet::from([as_written]);

@@ -56,3 +56,50 @@ fn a_pixel_is_probed() {
     assert!(ended.out.contains("surfaces.depth") && ended.out.contains('m'), "{}", ended.out);
     desk.ends(2, &["probe", "fog.graph.ron", "surfaces.depth", "16,0", "--size", "16x12"]);
 }
+
+/// In textures and in buffers, on the terminal and in files.
+#[test]
+fn whole_numbers_beyond_those_of_floats_survive() {
+    let desk = Desk::new();
+    desk.put(
+        "plugins/count/plugin.ron",
+        r#"(name: "count", version: "0.1.0", about: "counts", passes: { "count": (about: "counts", shader: "count.wgsl",
+            ports: { "words": (about: "texels", size: Fixed(2, 1)), "list": (about: "elements", size: Fixed(2)) }) })"#,
+    );
+    desk.put(
+        "plugins/count/count.wgsl",
+        "var words: texture_storage_2d<rgba32uint, write>;
+        var<storage, read_write> list: array<u32>;
+        @compute @workgroup_size(2) fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+            let odd = select(16777217u, 0xffffffffu, id.x == 1u);
+            textureStore(words, id.xy, vec4<u32>(odd));
+            list[id.x] = odd;
+        }",
+    );
+    let graph = r#"(version: 1, size: (2, 1), passes: { "c": (use: "count.count") },
+        outputs: { "words": "c.words", "list": "c.list" })"#;
+    desk.put("count.graph.ron", graph);
+    let probe = |port: &str, pixel: &str| desk.ends(0, &["probe", "count.graph.ron", port, pixel]).out;
+    assert_eq!(probe("c.words", "0,0"), format!("c.words 0,0: {}\n", ["16777217"; 4].join("  ")));
+    assert_eq!(probe("c.list", "1,0"), "c.list 1,0: 4294967295\n");
+    desk.ends(
+        0,
+        &[
+            "render",
+            "count.graph.ron",
+            "--output",
+            "words=w.exr",
+            "--output",
+            "list=l.npy",
+            "--output",
+            "c.words=w.npy",
+        ],
+    );
+    let words = [16_777_217.0, 4_294_967_295.0].map(|word| [word; 4]).concat();
+    for file in ["w.exr", "w.npy"] {
+        assert_eq!(tyndall_image::read_exact(&desk.path(file)).unwrap().data, words, "{file}");
+    }
+    let list = std::fs::read(desk.path("l.npy")).unwrap();
+    assert!(list.ends_with(&[16_777_217, u32::MAX].map(u32::to_le_bytes).concat()));
+    assert!(String::from_utf8_lossy(&list[..64]).contains("'descr': '<u4'"));
+}

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::{BitOr, BitOrAssign};
 
-use crate::descriptor::{Dimension, Format};
+use crate::descriptor::{Dimension, Format, PortDescriptor, Scalar};
 
 /// A texture or buffer as a GPU allocates it. Ports may share memory only where these are equal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -31,6 +31,14 @@ pub enum Resource {
 }
 
 impl Resource {
+    /// How its numbers are stored where a port of this descriptor holds it.
+    pub fn scalar(&self, port: &PortDescriptor) -> Scalar {
+        match self {
+            Resource::Texture { format, .. } => format.scalar(),
+            Resource::Buffer { .. } => port.kind.scalar(),
+        }
+    }
+
     /// Bytes that it takes, without what a driver adds; saturates.
     pub fn bytes(&self) -> u64 {
         match *self {

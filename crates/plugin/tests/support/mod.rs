@@ -142,7 +142,7 @@ pub fn content(executor: &Executor, name: &str) -> PortData {
 
 /// The bits of every number, so that NaN equals itself and 0 is not -0.
 pub fn bits(data: &PortData) -> Vec<u32> {
-    data.data.iter().map(|number| number.to_bits()).collect()
+    data.floats().iter().map(|number| number.to_bits()).collect()
 }
 
 /// The plan, the values and the scene of the contract's fog graph, without its file.

@@ -82,26 +82,27 @@ pub fn read(folder: &Path, key: &str, records: &Records, like: &Picture) -> Resu
         return Err(Missing::Torn(path));
     }
     let kind = tyndall_image::supported(&path).map_err(|error| Missing::Unreadable(error.to_string()))?;
-    let image = tyndall_image::decode(&path, kind, &bytes).map_err(|error| Missing::Unreadable(error.to_string()))?;
+    let image =
+        tyndall_image::decode_exact(&path, kind, &bytes).map_err(|error| Missing::Unreadable(error.to_string()))?;
     Ok(Picture::new(unfolded(image, like), like.class))
 }
 
 /// Linear light of a file as a port of this class has it: encoded sRGB where it is for the eye.
-pub(crate) fn as_port(mut image: Image, class: Class) -> Image {
+pub(crate) fn as_port(mut image: Image<f64>, class: Class) -> Image<f64> {
     if class == Class::Display {
         let channels = image.channels as usize;
         let light = image.data.iter_mut().enumerate().filter(|(index, _)| index % channels != 3);
-        light.for_each(|(_, value)| *value = srgb_from_linear(*value));
+        light.for_each(|(_, value)| *value = f64::from(srgb_from_linear(*value as f32)));
     }
     image
 }
 
 /// As a file has it, back to layers and to encoded sRGB.
-fn unfolded(mut image: Image, like: &Picture) -> Image {
+fn unfolded(mut image: Image<f64>, like: &Picture) -> Image<f64> {
     if like.class == Class::Display {
         image = as_port(image, like.class);
         // Codes of 8 bits come back as the codes that they were.
-        image.data.iter_mut().for_each(|value| *value = (*value * 255.0).round() / 255.0);
+        image.data.iter_mut().for_each(|value| *value = f64::from((*value * 255.0).round() as f32 / 255.0));
     }
     let layers = like.image.layers;
     if layers > 1 && image.height.is_multiple_of(layers) {
@@ -111,11 +112,11 @@ fn unfolded(mut image: Image, like: &Picture) -> Image {
     image
 }
 
-/// Writes the golden of a picture without loss: in half precision where every number survives that, as floats otherwise.
-/// So a pass that is run alone gets from goldens what it gets from the passes before it.
+/// Writes the golden of a picture without loss: in half precision where every number survives that, else as floats, and
+/// whole numbers beyond these as such. So a pass that is run alone gets from goldens what it gets from the passes before it.
 ///
 /// # Errors
-/// Where it is larger than a golden may be, or cannot be written.
+/// Where it is larger than a golden may be, no file holds its numbers, or it cannot be written.
 pub fn write(folder: &Path, key: &str, picture: &Picture) -> Result<PathBuf, NotWritten> {
     let Image { width, height, layers, .. } = picture.image;
     if !picture.fits_golden() {
@@ -127,16 +128,27 @@ pub fn write(folder: &Path, key: &str, picture: &Picture) -> Result<PathBuf, Not
     let path = folder.join(file_name(key, picture.class));
     let folded = Image { height: height * layers, layers: 1, ..picture.image.clone() };
     match picture.class {
-        Class::Display => tyndall_image::write(&path, &folded, Meaning::Display),
-        Class::Color => write_exr(&path, &folded, Meaning::Color, precision(&folded)),
-        _ => write_exr(&path, &folded, Meaning::Data, precision(&folded)),
+        Class::Display => tyndall_image::write(&path, &folded.floats(), Meaning::Display),
+        Class::Color => write_exr(&path, &folded, Meaning::Color, precision(&folded)?),
+        _ => write_exr(&path, &folded, Meaning::Data, precision(&folded)?),
     }?;
     Ok(path)
 }
 
-fn precision(image: &Image) -> Precision {
-    let survives = |value: &f32| f16::from_f32(*value).to_f32().to_bits() == value.to_bits();
-    if image.data.iter().all(survives) { Precision::Half } else { Precision::Float }
+/// The least precision that every number survives.
+fn precision(image: &Image<f64>) -> Result<Precision, NotWritten> {
+    let survives =
+        |rounded: &dyn Fn(f64) -> f64| image.data.iter().all(|value| rounded(*value).to_bits() == value.to_bits());
+    let as_half = |value| f16::from_f64(value).to_f64();
+    let as_float = |value| f64::from(value as f32);
+    let as_whole = |value| f64::from(value as u32);
+    let ways: [(Precision, &dyn Fn(f64) -> f64); 3] =
+        [(Precision::Half, &as_half), (Precision::Float, &as_float), (Precision::Whole, &as_whole)];
+    let found = ways.into_iter().find(|(_, rounded)| survives(*rounded));
+    found.map(|(precision, _)| precision).ok_or_else(|| NotWritten {
+        what: "no image file holds negative whole numbers beyond 2^24: test this port by its properties".to_owned(),
+        is_of_machine: false,
+    })
 }
 
 /// Records of goldens that no tap claims and of which there is no file: what was made is gone, and so is who asked for it.
@@ -175,4 +187,40 @@ pub fn may_be_dropped(path: &Path) -> bool {
 pub fn owner(folder: &Path) -> Option<PathBuf> {
     let stem = folder.file_name()?.to_str()?.strip_suffix(GOLDENS)?;
     Some(folder.with_file_name(format!("{stem}{SUFFIX}"))).filter(|path| path.is_file())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::adapter::AdapterClass;
+    use crate::metric::Metric;
+
+    /// Writes a golden, and reads it again.
+    fn again(picture: &Picture) -> Result<Picture, NotWritten> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = write(folder.path(), "a.port", picture)?;
+        let mut records = Records::default();
+        records.set("a.port", Record::new(&path, AdapterClass::Other, None).unwrap());
+        Ok(read(folder.path(), "a.port", &records, picture).unwrap())
+    }
+
+    /// One less or more is seen, also where a float could not tell.
+    #[test]
+    fn goldens_hold_whole_numbers() {
+        let of = |numbers: [u32; 4]| Picture::new(Image::new(2, 1, 2, numbers.to_vec()), Class::Data);
+        for numbers in [[0, 1, (1 << 24) + 1, u32::MAX], [0, 1, 2, 3]] {
+            let picture = of(numbers);
+            let golden = again(&picture).unwrap();
+            assert!(Metric::Exact.judge(&picture, &golden).passed);
+            let [a, b, c, d] = numbers;
+            assert!(!Metric::Exact.judge(&of([a, b, c - 1, d]), &golden).passed);
+            assert!(!Metric::Exact.judge(&of([a, b, c, d - 1]), &golden).passed);
+        }
+    }
+
+    #[test]
+    fn what_no_file_holds_is_refused() {
+        let picture = Picture::new(Image::new(2, 1, 1, vec![-1, -16_777_217]), Class::Data);
+        assert!(again(&picture).unwrap_err().what.contains("no image file holds"));
+    }
 }

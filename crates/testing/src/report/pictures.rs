@@ -69,7 +69,7 @@ impl Folder<'_> {
     }
 
     fn show(&self, stem: String, actual: &Picture, expected: Option<(&Picture, Metric)>) -> Result<Shown, Error> {
-        let like = |image: &Image| (image.width, image.height, image.layers, image.channels);
+        let like = |image: &Image<f64>| (image.width, image.height, image.layers, image.channels);
         let expected = expected.filter(|(expected, _)| like(&expected.image) == like(&actual.image));
         let exposure = Exposure::of(expected.map_or(actual, |(expected, _)| expected));
         self.save(&stem, "actual", &exposure.shown(actual))?;
@@ -102,7 +102,7 @@ impl Folder<'_> {
 }
 
 /// Layers below one another.
-fn flat(image: &Image) -> (u32, u32) {
+fn flat<T>(image: &Image<T>) -> (u32, u32) {
     (image.width, image.height * image.layers)
 }
 
@@ -115,8 +115,8 @@ struct Exposure {
 impl Exposure {
     /// So that 99 of 100 numbers are within.
     fn of(picture: &Picture) -> Self {
-        let compared = picture.compared();
-        let mut finite: Vec<f32> = compared.data.into_iter().filter(|value| value.is_finite()).collect();
+        let mut finite: Vec<f32> =
+            picture.compared().floats().data.into_iter().filter(|value| value.is_finite()).collect();
         let mut at = |part: f32| {
             let place = (part * finite.len().saturating_sub(1) as f32) as usize;
             // Only what stands at the place is wanted, and not all in order.
@@ -132,7 +132,7 @@ impl Exposure {
     }
 
     fn shown(&self, picture: &Picture) -> Image {
-        let compared = picture.compared();
+        let compared = picture.compared().floats();
         let (low, high) = self.range;
         let code = |value: f32| {
             let part = ((value - low) / (high - low)).clamp(0.0, 1.0);
@@ -163,7 +163,7 @@ fn of_metric(actual: &Picture, expected: &Picture, metric: Metric) -> Vec<f64> {
     };
     if let (Some(alpha), Some(wanted)) = (actual.alpha(), expected.alpha()) {
         for (excess, (alpha, wanted)) in excess.iter_mut().zip(alpha.data.iter().zip(&wanted.data)) {
-            *excess = excess.max(f64::from((alpha - wanted).abs()) / ALPHA_TOLERANCE);
+            *excess = excess.max((alpha - wanted).abs() / ALPHA_TOLERANCE);
         }
     }
     excess
@@ -173,8 +173,8 @@ fn of_metric(actual: &Picture, expected: &Picture, metric: Metric) -> Vec<f64> {
 fn excess(actual: &Picture, expected: &Picture, scale: f64) -> Vec<f64> {
     let (actual, expected) = (actual.compared(), expected.compared());
     let channels = actual.channels.max(1) as usize;
-    let difference = |(a, b): (&f32, &f32)| {
-        let difference = (f64::from(*a) - f64::from(*b)).abs();
+    let difference = |(a, b): (&f64, &f64)| {
+        let difference = (a - b).abs();
         if a.to_bits() == b.to_bits() || a == b {
             0.0
         } else if difference.is_nan() {
@@ -214,7 +214,7 @@ fn step(level: usize) -> [f32; 3] {
 /// Numbers in 32 equal ranges; those outside count in the outermost, those that are not finite nowhere.
 fn histogram(picture: &Picture, (low, high): (f32, f32)) -> Vec<usize> {
     let mut counts = vec![0; 32];
-    for value in picture.compared().data.iter().filter(|value| value.is_finite()) {
+    for value in picture.compared().floats().data.iter().filter(|value| value.is_finite()) {
         let part = ((value - low) / (high - low)).clamp(0.0, 1.0);
         counts[((part * 32.0) as usize).min(31)] += 1;
     }

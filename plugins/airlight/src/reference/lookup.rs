@@ -1,9 +1,8 @@
 //! Airlight as the papers look it up: from the table that the pass was given, so that errors of the table are not the pass's.
 
-use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-use tyndall_plugin::ReferenceInput;
+use tyndall_plugin::{Outputs, ReferenceInput};
 use tyndall_shaders::airlight_table::{Table, legendre_polynomials};
 use tyndall_shaders::cone::ray_in_cone;
 use tyndall_shaders::medium::opacity;
@@ -13,8 +12,6 @@ use tyndall_shaders::scene::{Light, Medium, Phase};
 
 use super::of_lights;
 use super::tables::TABLE_DEPTH;
-
-type Outputs = Result<BTreeMap<&'static str, Vec<f32>>, String>;
 
 /// Parts of a spot's lit interval: as in `airlight_table.wgsl`.
 const SPOT_PARTS: u32 = 8;
@@ -42,7 +39,8 @@ pub(crate) fn legendre(input: &ReferenceInput<'_>) -> Outputs {
 
 fn of_table(input: &ReferenceInput<'_>, weights: [f64; 4], phase: impl Fn(&Phase, f64) -> f64) -> Outputs {
     let data = input.input("table")?;
-    let table = Table { size: [data.width, data.height], channels: data.channels, data: &data.data };
+    let numbers = data.floats();
+    let table = Table { size: [data.width(), data.height()], channels: data.channels(), data: &numbers };
     of_lights(input, |scene, light, ray, far| {
         let medium = &scene.medium;
         if let Light::Directional { direction, irradiance } = *light {

@@ -3,13 +3,11 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use tyndall_plugin::ReferenceInput;
+use tyndall_plugin::{Outputs, ReferenceInput};
 use tyndall_shaders::airlight_table;
 
 /// u at the last column.
 pub(super) const TABLE_DEPTH: f64 = 10.0;
-
-type Outputs = Result<BTreeMap<&'static str, Vec<f32>>, String>;
 
 /// H of the scene's phase function.
 pub(crate) fn h(input: &ReferenceInput<'_>) -> Outputs {
@@ -32,5 +30,5 @@ fn texels(input: &ReferenceInput<'_>, value: impl Fn(f64, f64) -> Vec<f64>) -> O
             table.extend(value(u, theta).into_iter().map(|value| value as f32));
         }
     }
-    Ok(BTreeMap::from([("table", table)]))
+    Ok(BTreeMap::from([("table", table.into())]))
 }

@@ -3,12 +3,10 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use tyndall_plugin::ReferenceInput;
+use tyndall_plugin::{Outputs, ReferenceInput};
 use tyndall_shaders::phase::{Lobe, lobes, phase};
 use tyndall_shaders::reflection::glow_of;
 use tyndall_shaders::scene::Phase;
-
-use super::Outputs;
 
 /// Nodes of ln tan(gamma/2): the first, and from one to the next.
 pub(super) const FIRST_NODE: f64 = -12.5;
@@ -62,7 +60,7 @@ pub(crate) fn zonal(input: &ReferenceInput<'_>) -> Outputs {
         }
         coefficients.extend(sums.into_iter().map(|sum| sum as f32));
     }
-    Ok(BTreeMap::from([("glow", glow), ("coefficients", coefficients)]))
+    Ok(BTreeMap::from([("glow", glow.into()), ("coefficients", coefficients.into())]))
 }
 
 /// The phase function at w, without lobes that the nodes do not see.

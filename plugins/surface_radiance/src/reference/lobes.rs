@@ -4,11 +4,11 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use tyndall_plugin::{PortData, ReferenceInput, Resource};
+use tyndall_plugin::{Outputs, PortData, ReferenceInput, Resource};
 use tyndall_shaders::scene::CosineLobe;
 
 use super::around::{FIRST_NODE, NODE_STEP};
-use super::{Outputs, texel};
+use super::texel;
 
 /// The largest shininess that zonal coefficients are used for.
 const ZONAL_MOST: f64 = 30.0;
@@ -77,22 +77,22 @@ pub(crate) fn lobes(input: &ReferenceInput<'_>) -> Outputs {
             }
         }
     }
-    Ok(BTreeMap::from([("table", table)]))
+    Ok(BTreeMap::from([("table", table.into())]))
 }
 
 /// Of each row of the glow.
 fn over_lobe(lobe: &CosineLobe, theta: f64, glow: &PortData, coefficients: &PortData) -> Vec<f64> {
-    let nodes = across(lobe, theta, glow.width);
+    let nodes = across(lobe, theta, glow.width());
     let value = |row: u32| {
         let sum = if lobe.exponent <= ZONAL_MOST && !lobe.is_spot {
-            zonal_sum(lobe.exponent, theta, |l| texel(coefficients, 0, l, row)[0], coefficients.width)
+            zonal_sum(lobe.exponent, theta, |l| texel(coefficients, 0, l, row)[0], coefficients.width())
         } else {
             nodes.iter().map(|(at, weight)| weight * cubic(*at, |node| texel(glow, 0, node, row)[0])).sum()
         };
         let unit = if lobe.is_spot { texel(coefficients, 0, 0, row)[0] } else { 2.0 * PI / (lobe.exponent + 1.0) };
         (sum / unit).max(0.0)
     };
-    (0..glow.height).map(value).collect()
+    (0..glow.height()).map(value).collect()
 }
 
 /// Σ (2l + 1)/(4π)·F_l·K_l·P_l(cos θ), with K_(l+2) = K_l (n − l)/(n + l + 3).

@@ -3,14 +3,14 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::DVec3;
-use tyndall_plugin::{PortData, ReferenceInput};
+use tyndall_plugin::{Outputs, PortData, ReferenceInput};
 use tyndall_shaders::airlight_table::Table;
 use tyndall_shaders::lights::incident;
 use tyndall_shaders::phase;
 use tyndall_shaders::scene::{HeightFog, Light, Medium};
 
 use super::tables::TABLE_DEPTH;
-use super::{Outputs, Surface, of_surfaces, rgb};
+use super::{Surface, of_surfaces, rgb};
 
 /// By J.
 pub(crate) fn table(input: &ReferenceInput<'_>) -> Outputs {
@@ -24,15 +24,16 @@ pub(crate) fn legendre(input: &ReferenceInput<'_>) -> Outputs {
 }
 
 fn of_tables(input: &ReferenceInput<'_>, weights: [f64; 4]) -> Outputs {
-    let table = |data: &'static str| input.input(data).map(of_port);
-    let (lambert, phong) = (table("lambert")?, table("phong")?);
+    let (lambert, phong) = (input.input("lambert")?, input.input("phong")?);
+    let numbers = [lambert, phong].map(PortData::floats);
+    let [lambert, phong] = [(lambert, &numbers[0]), (phong, &numbers[1])].map(|(port, numbers)| of_port(port, numbers));
     of_surfaces(input, &HeightFog::NONE, |scene, light, surface| {
         scattered(&scene.medium, light, surface, weights, [lambert, phong])
     })
 }
 
-fn of_port(data: &PortData) -> Table<'_> {
-    Table { size: [data.width, data.height], channels: data.channels, data: &data.data }
+fn of_port<'a>(data: &PortData, numbers: &'a [f32]) -> Table<'a> {
+    Table { size: [data.width(), data.height()], channels: data.channels(), data: numbers }
 }
 
 /// I sigma_s/d (rho/pi J^1 + k_s J^n); of a directional light nothing.

@@ -4,13 +4,13 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 use tyndall_plugin::descriptor::ParamValue;
-use tyndall_plugin::{PortData, ReferenceInput};
+use tyndall_plugin::{Outputs, PortData, ReferenceInput};
 use tyndall_shaders::lights::incident;
 use tyndall_shaders::scene::{CosineLobe, HeightFog, Light, Scene};
 
 use super::around::row_of;
 use super::lobes::AngleAxis;
-use super::{Outputs, Surface, of_surfaces, rgb, straight, texel};
+use super::{Surface, of_surfaces, rgb, straight, texel};
 
 /// Light of every light, as the parameters ask for.
 pub(crate) fn phong(input: &ReferenceInput<'_>) -> Outputs {
@@ -43,15 +43,16 @@ fn scattered(scene: &Scene, light: &Light, surface: &Surface, table: &PortData) 
             cell(table, layer, at, depth)
         }))
     };
-    let of_lobe =
-        |n: f64, axis: DVec3, layer: u32| of(axis, layer, &AngleAxis::new(n, -1.0, table.width)) * 2.0 * PI / (n + 1.0);
+    let of_lobe = |n: f64, axis: DVec3, layer: u32| {
+        of(axis, layer, &AngleAxis::new(n, -1.0, table.width())) * 2.0 * PI / (n + 1.0)
+    };
     let lambert = of_lobe(1.0, surface.normal, 0);
     let phong = of_lobe(surface.phong[3], surface.mirrored, surface.diffuse[3] as u32);
     let all_around = match *light {
         Light::Spot { direction, exponent, cutoff, .. } => {
             let cos_cutoff = cutoff.to_radians().cos();
             let layer = layer_of_spot(&scene.cosine_lobes, exponent, cos_cutoff);
-            of(-direction, layer, &AngleAxis::new(exponent, cos_cutoff, table.width))
+            of(-direction, layer, &AngleAxis::new(exponent, cos_cutoff, table.width()))
         }
         _ => DVec3::ONE,
     };
@@ -71,8 +72,8 @@ fn layer_of_spot(lobes: &[CosineLobe], exponent: f64, cos_cutoff: f64) -> u32 {
 
 /// The table between the corners of a cell, at an angle's coordinate and a depth; without one in the last row.
 fn cell(table: &PortData, layer: u32, angle: f64, depth: Option<f64>) -> f64 {
-    let last = table.height - 1;
-    let column = (angle as u32).min(table.width - 1);
+    let last = table.height() - 1;
+    let column = (angle as u32).min(table.width() - 1);
     let (row, down) = match depth {
         Some(depth) => {
             let at = row_of(depth, f64::from(last));

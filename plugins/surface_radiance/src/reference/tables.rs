@@ -3,11 +3,9 @@
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
-use tyndall_plugin::ReferenceInput;
 use tyndall_plugin::descriptor::ParamValue;
+use tyndall_plugin::{Outputs, ReferenceInput};
 use tyndall_shaders::surface_table;
-
-use super::Outputs;
 
 /// T at the last column.
 pub(super) const TABLE_DEPTH: f64 = 10.0;
@@ -37,5 +35,5 @@ fn texels(input: &ReferenceInput<'_>, value: impl Fn(f64, f64, f64) -> Vec<f64>)
             table.extend(values.into_iter().map(|value| value as f32));
         }
     }
-    Ok(BTreeMap::from([("table", table)]))
+    Ok(BTreeMap::from([("table", table.into())]))
 }

@@ -140,7 +140,7 @@ impl Desk {
 }
 
 fn picture(executor: &Executor, name: &str) -> Vec<Vec<[f64; 3]>> {
-    let data = executor.read(executor.plan().find(name).unwrap()).unwrap().data;
+    let data = executor.read(executor.plan().find(name).unwrap()).unwrap().floats();
     assert_eq!(data.len() % (LIGHTS * ANGLES), 0);
     let channels = data.len() / (LIGHTS * ANGLES);
     let texel = |light: usize, angle: usize| {
