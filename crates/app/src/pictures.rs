@@ -3,15 +3,16 @@
 use std::path::Path;
 
 use tyndall_gpu::{Executor, Numbers, PortData};
+use tyndall_graph::{Handle, PlannedPort};
 use tyndall_image::{FileKind, Meaning, Sample, supported};
 use tyndall_render::{image, meaning, shape};
 
 use crate::failure::Failure;
 
 /// Reads a port of the last frame and writes it to a file, in the format of the file's suffix.
-pub(crate) fn write_port(executor: &Executor, port: u32, path: &Path) -> Result<(), Failure> {
+pub(crate) fn write_port(executor: &Executor, port: Handle<PlannedPort>, path: &Path) -> Result<(), Failure> {
     let data = executor.read(port)?;
-    let meaning = meaning(executor.plan().ports[port as usize].class);
+    let meaning = meaning(executor.plan().ports[port].class);
     if supported(path)? != FileKind::Npy && !data.is_image() {
         return Err(no_picture(executor.plan().port_name(port), path));
     }

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use tyndall_document::Diagnostics;
 use tyndall_gpu::{FrameOptions, Gpu, PipelineCache, Timing};
-use tyndall_graph::Plan;
+use tyndall_graph::{Handle, Plan, PlannedPass, Slot};
 use tyndall_image::metrics::median;
 use tyndall_plugin::Registry;
 use tyndall_render::{Error, Running};
@@ -29,7 +29,7 @@ pub(crate) struct Measured<'p> {
 /// A pass that the compared light depends on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct OwnPass {
-    position: u32,
+    position: Handle<PlannedPass>,
     /// Its result stays while camera and lights move.
     is_set_up: bool,
 }
@@ -91,7 +91,7 @@ impl<'p> Measured<'p> {
         let is_first = self.frame_us.is_empty();
         let (mut frame, mut set_up) = (Some(0.0), Some(0.0));
         for pass in self.own.iter().filter(|pass| is_first || !pass.is_set_up) {
-            let timing = Timing::Pass(pass.position as usize);
+            let timing = Timing::Pass(pass.position);
             // What it reads is kept. It runs where something needs it: so all that follows is forgotten, too.
             for following in self.own.iter().filter(|other| other.position >= pass.position) {
                 self.running.executor.forget(following.position);
@@ -145,12 +145,12 @@ impl<'p> Measured<'p> {
 
 /// All passes of a plan for one port, but those that rasterise: that read triangles, and no light.
 fn own_passes(plan: &Plan) -> Vec<OwnPass> {
-    let rasterises = |position: &u32| {
+    let rasterises = |position: &Handle<PlannedPass>| {
         let reads = |name: &str| plan.descriptor(*position).scene.iter().any(|data| data == name);
         reads("triangles") && !reads("lights")
     };
-    let own = |position: u32| OwnPass { position, is_set_up: !plan.passes[position as usize].volatile };
-    (0..plan.passes.len() as u32).filter(|position| !rasterises(position)).map(own).collect()
+    let own = |position| OwnPass { position, is_set_up: !plan.passes[position].volatile };
+    plan.passes.handles().filter(|position| !rasterises(position)).map(own).collect()
 }
 
 /// Bytes of what passes write once, and in each frame. Memory that ports share counts once.
@@ -158,8 +158,8 @@ fn bytes(plan: &Plan, own: &[OwnPass]) -> (u64, u64) {
     let of = |set_up: bool| {
         let passes = own.iter().filter(|pass| pass.is_set_up == set_up);
         let ports = passes.flat_map(|pass| plan.outputs_of(pass.position));
-        let slots: BTreeSet<u32> = ports.map(|port| plan.ports[port as usize].slot).collect();
-        slots.into_iter().map(|slot| plan.slots[slot as usize].resource.bytes()).sum()
+        let slots: BTreeSet<Handle<Slot>> = ports.map(|port| plan.ports[port].slot).collect();
+        slots.into_iter().map(|slot| plan.slots[slot].resource.bytes()).sum()
     };
     (of(true), of(false))
 }

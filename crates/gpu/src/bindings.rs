@@ -2,6 +2,7 @@
 
 use naga::StorageAccess;
 use tyndall_graph::descriptor::{ParamDescriptor, ParamValue};
+use tyndall_graph::{Handle, Slot, Table};
 use tyndall_shader::{
     Linked, PARAMS, ParamKind, ParamSource, Resource, ResourceKind, SAMPLERS, SampleClass, UNFINISHED, counted,
 };
@@ -12,11 +13,14 @@ use crate::scene::SceneBuffers;
 use crate::slots::Physical;
 use crate::view::PlannedView;
 
+/// A value for each parameter of a pass.
+pub type Values = Table<ParamDescriptor, ParamValue>;
+
 /// Where a binding gets its content.
 #[derive(Debug, Clone, Copy)]
 enum Feed {
     /// A slot of the plan.
-    Slot(usize),
+    Slot(Handle<Slot>),
     /// Scene data.
     Scene(usize),
     /// The pass's parameters.
@@ -41,7 +45,7 @@ pub(crate) struct Bindings {
 /// What bindings are resolved against.
 pub(crate) struct Bound<'a> {
     pub gpu: &'a Gpu,
-    pub slots: &'a [Physical],
+    pub slots: &'a Table<Slot, Physical>,
     pub scene: &'a SceneBuffers,
     pub samplers: &'a [wgpu::Sampler; 3],
 }
@@ -139,7 +143,7 @@ impl Bindings {
     }
 
     /// Writes the parameters to the GPU where they have changed.
-    pub(crate) fn update(&mut self, gpu: &Gpu, values: &[ParamValue], descriptors: &[ParamDescriptor]) {
+    pub(crate) fn update(&mut self, gpu: &Gpu, values: &Values, descriptors: &Table<ParamDescriptor>) {
         if let Some(block) = &mut self.params {
             block.update(gpu, values, descriptors);
         }
@@ -236,7 +240,7 @@ fn buffer(ty: wgpu::BufferBindingType, bytes: u32) -> wgpu::BindingType {
 struct ParamBlock {
     buffer: wgpu::Buffer,
     content: Vec<u8>,
-    fields: Vec<(usize, usize, ParamKind)>,
+    fields: Vec<(usize, Handle<ParamDescriptor>, ParamKind)>,
     written: bool,
 }
 
@@ -261,7 +265,7 @@ impl ParamBlock {
         Ok(Self { buffer, content: vec![0; (size as usize).next_multiple_of(16)], fields, written: false })
     }
 
-    fn update(&mut self, gpu: &Gpu, values: &[ParamValue], descriptors: &[ParamDescriptor]) {
+    fn update(&mut self, gpu: &Gpu, values: &Values, descriptors: &Table<ParamDescriptor>) {
         let mut changed = !self.written;
         for &(offset, index, kind) in &self.fields {
             let mut at = offset;
@@ -302,7 +306,7 @@ pub(crate) fn each_number(value: &ParamValue, descriptor: &ParamDescriptor, mut 
 pub(crate) fn constants(
     linked: &Linked,
     pass: PlannedView<'_>,
-    values: &[ParamValue],
+    values: &Values,
     scene: &mut SceneBuffers,
 ) -> Vec<(String, f64)> {
     let mut constants = Vec::new();

@@ -7,11 +7,10 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use tyndall_graph::ParamSetting;
 use tyndall_graph::descriptor::{ParamDescriptor, ParamValue};
-use tyndall_graph::{Plan, SlotKind, Step};
+use tyndall_graph::{Handle, ParamSetting, Plan, PlannedPass, PlannedPort, Slot, SlotKind, Step, Table};
 
-use crate::bindings::Bound;
+use crate::bindings::{Bound, Values};
 use crate::cache::PipelineCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -63,16 +62,23 @@ pub struct PassCounters {
 pub struct Executor {
     gpu: Arc<Gpu>,
     plan: Arc<Plan>,
-    slots: Vec<Physical>,
-    programs: Vec<Box<dyn Program>>,
-    values: Vec<Vec<ParamValue>>,
-    live: Vec<(usize, usize, ParamSetting)>,
+    slots: Table<Slot, Physical>,
+    programs: Table<PlannedPass, Box<dyn Program>>,
+    values: Table<PlannedPass, Values>,
+    live: Vec<Live>,
     samplers: [wgpu::Sampler; 3],
     stamps: Option<Stamps>,
     freshness: Freshness,
-    counters: Vec<PassCounters>,
+    counters: Table<PlannedPass, PassCounters>,
     /// The scene's buffers; set them before the first frame.
     pub scene: SceneBuffers,
+}
+
+/// A parameter that changes with the frame.
+struct Live {
+    pass: Handle<PlannedPass>,
+    param: Handle<ParamDescriptor>,
+    setting: ParamSetting,
 }
 
 impl Executor {
@@ -91,10 +97,10 @@ impl Executor {
         scene.release_counts();
         let slots = create_all(gpu, &plan)?;
         fill_stated(gpu, &plan, &slots)?;
-        let values: Vec<Vec<ParamValue>> =
-            positions(&plan).map(|pass| plan.params(pass).iter().map(at_start).collect()).collect();
-        let mut ready = Vec::with_capacity(plan.passes.len());
-        for (position, values) in positions(&plan).zip(&values) {
+        let at_start = |position| plan.params(position).iter().map(at_start).collect();
+        let values: Table<PlannedPass, Values> = plan.passes.handles().map(at_start).collect();
+        let mut ready = Table::with_capacity(plan.passes.len());
+        for (position, values) in values.entries() {
             let pass = PlannedView { plan: &plan, position };
             let mut setup = Setup { gpu, pass, values, scene: &mut scene, cache };
             ready.push(programs.program(&mut setup)?);
@@ -103,7 +109,7 @@ impl Executor {
         let freshness = Freshness::new(&plan, programs, &mut scene);
         let samplers = samplers(gpu)?;
         let stamps = Stamps::new(gpu)?;
-        let counters = vec![PassCounters::default(); plan.passes.len()];
+        let counters = plan.passes.column(PassCounters::default());
         let gpu = gpu.clone();
         Ok(Self { gpu, plan, slots, programs: ready, values, live, samplers, stamps, freshness, counters, scene })
     }
@@ -118,8 +124,8 @@ impl Executor {
         &self.gpu
     }
 
-    /// Counts and times of the passes, in the plan's order.
-    pub fn counters(&self) -> &[PassCounters] {
+    /// Counts and times of the passes.
+    pub fn counters(&self) -> &Table<PlannedPass, PassCounters> {
         &self.counters
     }
 
@@ -135,10 +141,10 @@ impl Executor {
     /// of its type. Ranges are not checked.
     pub fn set_param(&mut self, pass: &str, param: &str, value: ParamValue) -> Result<(), GpuError> {
         let refuse = |reason: &str| GpuError::Pass { pass: pass.to_owned(), reason: format!("`{param}` {reason}") };
-        let at = positions(&self.plan).find(|position| self.plan.pass_name(*position) == pass);
+        let at = self.plan.passes.handles().find(|position| self.plan.pass_name(*position) == pass);
         let at = at.ok_or_else(|| refuse("belongs to no pass of the plan"))?;
         let descriptor = self.plan.descriptor(at);
-        let index = descriptor.params.iter().position(|candidate| candidate.name == param);
+        let index = descriptor.param_named(param);
         let index = index.ok_or_else(|| refuse("is no parameter of it"))?;
         if descriptor.params[index].fixed {
             return Err(refuse("is a part of the pipeline: plan anew to change it"));
@@ -146,8 +152,8 @@ impl Executor {
         if !is_of_type(&descriptor.params[index], &value) {
             return Err(refuse("cannot have a value of this type"));
         }
-        self.values[at as usize][index] = value;
-        self.live.retain(|&(pass, param, _)| (pass, param) != (at as usize, index));
+        self.values[at][index] = value;
+        self.live.retain(|live| (live.pass, live.param) != (at, index));
         Ok(())
     }
 
@@ -167,7 +173,7 @@ impl Executor {
 
     /// Forgets what a pass has written: it runs in the next frame though nothing has changed. What others have written is
     /// still there, as far as the plan keeps it.
-    pub fn forget(&mut self, pass: u32) {
+    pub fn forget(&mut self, pass: Handle<PlannedPass>) {
         self.freshness.forget_pass(&self.plan, pass);
     }
 
@@ -205,8 +211,7 @@ impl Executor {
         }
         for step in &plan.steps {
             match *step {
-                Step::Run { pass: position } if freshness.runs(position as usize) => {
-                    let pass = position as usize;
+                Step::Run { pass } if freshness.runs(pass) => {
                     let timed = options.timing == Timing::Pass(pass);
                     let each = options.timing == Timing::Each;
                     if timed || each {
@@ -218,7 +223,7 @@ impl Executor {
                     let mut recorder = Recorder {
                         encoder: &mut encoder,
                         bound: Bound { gpu, slots, scene, samplers },
-                        pass: PlannedView { plan, position },
+                        pass: PlannedView { plan, position: pass },
                         values: &values[pass],
                         stamps: if timed { stamps.as_mut() } else { None },
                     };
@@ -241,11 +246,11 @@ impl Executor {
                 }
                 Step::Run { .. } => {}
                 Step::Copy { pass, from, to } => {
-                    if freshness.runs(pass as usize) {
-                        copy(&mut encoder, &slots[from as usize], &slots[to as usize]);
+                    if freshness.runs(pass) {
+                        copy(&mut encoder, &slots[from], &slots[to]);
                     }
                 }
-                Step::Carry { from, to } => copy(&mut encoder, &slots[from as usize], &slots[to as usize]),
+                Step::Carry { from, to } => copy(&mut encoder, &slots[from], &slots[to]),
             }
         }
         if let Some(stamps) = stamps.as_mut() {
@@ -266,13 +271,13 @@ impl Executor {
     /// # Errors
     /// [`GpuError::Pass`] where other ports have used the port's memory since (it was no root of the plan); a lost
     /// device.
-    pub fn read(&self, port: u32) -> Result<PortData, GpuError> {
+    pub fn read(&self, port: Handle<PlannedPort>) -> Result<PortData, GpuError> {
         let name = self.plan.port_name(port);
-        if !self.freshness.holds(&self.plan, port as usize) {
+        if !self.freshness.holds(&self.plan, port) {
             let reason = "its memory was used again: ask for it when planning".to_owned();
             return Err(GpuError::Pass { pass: name, reason });
         }
-        let slot = self.plan.ports[port as usize].slot as usize;
+        let slot = self.plan.ports[port].slot;
         let resource = *self.plan.resource(port);
         let scalar = resource.scalar(self.plan.port_descriptor(port));
         read(&self.gpu, &name, (resource, scalar), &self.slots[slot])
@@ -283,9 +288,9 @@ impl Executor {
     ///
     /// # Errors
     /// A lost device.
-    pub fn unfinished(&self) -> Result<Vec<(u32, u32)>, GpuError> {
+    pub fn unfinished(&self) -> Result<Vec<(Handle<PlannedPass>, u32)>, GpuError> {
         let mut unfinished = Vec::new();
-        for (pass, program) in positions(&self.plan).zip(&self.programs) {
+        for (pass, program) in self.programs.entries() {
             let Some(count) = program.unfinished() else { continue };
             let bytes = read_bytes(&self.gpu, self.plan.pass_name(pass), 4, |encoder, staging| {
                 encoder.copy_buffer_to_buffer(count, 0, staging, 0, 4);
@@ -305,22 +310,23 @@ impl Executor {
     /// # Errors
     /// [`GpuError::Pass`] where the content has another size than the port, where the port is a rasteriser's depth
     /// buffer (nothing can be copied into one), or where other ports use its memory: plan without sharing.
-    pub fn give(&mut self, port: u32, texels: &[u8]) -> Result<(), GpuError> {
-        let planned = &self.plan.ports[port as usize];
-        let shared = |other: u32| other != port && !self.plan.ports[other as usize].in_place;
+    pub fn give(&mut self, port: Handle<PlannedPort>, texels: &[u8]) -> Result<(), GpuError> {
+        let planned = &self.plan.ports[port];
+        let shared = |other| other != port && !self.plan.ports[other].in_place;
         if self.plan.ports_in(planned.slot).any(shared) {
             let reason = "other ports use its memory, so nothing can be given to it: plan without sharing".to_owned();
             return Err(GpuError::Pass { pass: self.plan.port_name(port), reason });
         }
         let name = self.plan.port_name(port);
-        upload(&self.gpu, &name, self.plan.resource(port), &self.slots[planned.slot as usize], texels)?;
-        self.freshness.give(&self.plan, port as usize);
+        upload(&self.gpu, &name, self.plan.resource(port), &self.slots[planned.slot], texels)?;
+        self.freshness.give(&self.plan, port);
         Ok(())
     }
 
     fn set_live(&mut self, frame: u32) {
-        for (pass, param, setting) in &self.live {
-            self.values[*pass][*param] = match (setting, &self.values[*pass][*param]) {
+        for Live { pass, param, setting } in &self.live {
+            let value = &mut self.values[*pass][*param];
+            *value = match (setting, &*value) {
                 (ParamSetting::Frame, ParamValue::Integer(_)) => ParamValue::Integer(i64::from(frame)),
                 (ParamSetting::Frame, _) => ParamValue::Float(f64::from(frame)),
                 (_, _) => ParamValue::Float(f64::from(frame) / FRAMES_PER_SECOND),
@@ -342,11 +348,6 @@ fn submit(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) {
 /// Frame n shows time n over this.
 pub const FRAMES_PER_SECOND: f64 = 24.0;
 
-/// Positions of a plan's passes.
-fn positions(plan: &Plan) -> std::ops::Range<u32> {
-    0..plan.passes.len() as u32
-}
-
 /// Whether a parameter can have this value, ranges apart.
 fn is_of_type(param: &ParamDescriptor, value: &ParamValue) -> bool {
     match (&param.default, value) {
@@ -364,12 +365,12 @@ fn at_start(setting: &ParamSetting) -> ParamValue {
     }
 }
 
-fn live_settings(plan: &Plan) -> Vec<(usize, usize, ParamSetting)> {
+fn live_settings(plan: &Plan) -> Vec<Live> {
     let mut live = Vec::new();
-    for pass in positions(plan) {
-        for (param, setting) in plan.params(pass).iter().enumerate() {
+    for pass in plan.passes.handles() {
+        for (param, setting) in plan.params(pass).entries() {
             if !matches!(setting, ParamSetting::Value(_)) {
-                live.push((pass as usize, param, setting.clone()));
+                live.push(Live { pass, param, setting: setting.clone() });
             }
         }
     }

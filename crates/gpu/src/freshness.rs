@@ -2,48 +2,50 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use tyndall_graph::descriptor::{ParamValue, Role};
-use tyndall_graph::{Plan, Step};
+use tyndall_graph::descriptor::ParamValue;
+use tyndall_graph::{Handle, Plan, PlannedPass, PlannedPort, Slot, Step, Table};
 
+use crate::bindings::Values;
 use crate::scene::SceneBuffers;
 use crate::setup::{Program, Programs};
 
 /// What every slot holds, and what every pass would give now.
 pub(crate) struct Freshness {
-    /// Of each pass: the part of its fingerprint that a plan fixes.
-    fixed: Vec<u64>,
-    /// Of each pass: the scene data that it reads.
-    scene: Vec<Vec<usize>>,
-    /// Of each pass: it reads a history, has side effects, or must run anyway.
-    always: Vec<bool>,
-    /// Of each pass, for this frame.
-    fingerprints: Vec<u64>,
-    /// Of each pass, for this frame: it runs.
-    run: Vec<bool>,
-    /// Of each port, for this frame: a running pass reads it.
-    needed: Vec<bool>,
-    /// Of each slot: the port that it holds, and the fingerprint that this was made with.
-    holds: Vec<Option<(usize, u64)>>,
-    /// Of each port: its content was given, and is not computed.
-    given: Vec<bool>,
-    /// Ports that must hold their content after the frame.
-    roots: Vec<bool>,
+    /// The part of a pass's fingerprint that a plan fixes.
+    fixed: Table<PlannedPass, u64>,
+    /// The scene data that a pass reads.
+    scene: Table<PlannedPass, Vec<usize>>,
+    /// The pass reads a history, has side effects, or must run anyway.
+    always: Table<PlannedPass, bool>,
+    /// For this frame.
+    fingerprints: Table<PlannedPass, u64>,
+    /// The pass runs in this frame.
+    run: Table<PlannedPass, bool>,
+    /// A running pass reads the port in this frame.
+    needed: Table<PlannedPort, bool>,
+    /// The port that a slot holds, and the fingerprint that this was made with.
+    holds: Table<Slot, Option<(Handle<PlannedPort>, u64)>>,
+    /// The content of the port was given, and is not computed.
+    given: Table<PlannedPort, bool>,
+    /// The port must hold its content after the frame.
+    roots: Table<PlannedPort, bool>,
     /// Counts the frames, to make each one's histories distinct.
     frame: u64,
 }
 
 impl Freshness {
     pub(crate) fn new(plan: &Plan, programs: &dyn Programs, scene: &mut SceneBuffers) -> Self {
-        let passes = plan.passes.len();
-        let descriptors = || (0..passes as u32).map(|pass| plan.descriptor(pass));
-        let fixed = (0..passes as u32)
+        let descriptors = || plan.passes.handles().map(|pass| plan.descriptor(pass));
+        let fixed = plan
+            .passes
+            .handles()
             .map(|pass| {
                 let mut hasher = DefaultHasher::new();
                 let descriptor = plan.descriptor(pass);
                 (&descriptor.name, descriptor.revision).hash(&mut hasher);
                 programs.fingerprint(&descriptor.name).hash(&mut hasher);
                 for binding in plan.bindings(pass) {
-                    let slot = binding.map(|slot| &plan.slots[slot as usize]);
+                    let slot = binding.map(|slot| &plan.slots[slot]);
                     slot.map(|slot| slot.resource).hash(&mut hasher);
                     slot.and_then(|slot| slot.initial()).map(|value| value.map(f32::to_bits)).hash(&mut hasher);
                 }
@@ -52,26 +54,18 @@ impl Freshness {
             .collect();
         let scene =
             descriptors().map(|descriptor| descriptor.scene.iter().map(|name| scene.intern(name)).collect()).collect();
-        let always = descriptors()
-            .map(|descriptor| {
-                let history = descriptor.ports.iter().any(|port| matches!(port.role, Role::History(_)));
-                descriptor.side_effect || history
-            })
-            .collect();
-        let mut roots = vec![false; plan.ports.len()];
-        for (index, port) in plan.ports.iter().enumerate() {
-            // What a history carries over is copied at the end of the frame, whoever else has read it.
-            roots[index] = port.root || port.carried;
-        }
+        let always = descriptors().map(|descriptor| descriptor.side_effect || descriptor.remembers()).collect();
+        // What a history carries over is copied at the end of the frame, whoever else has read it.
+        let roots = plan.ports.iter().map(|port| port.root || port.carried).collect();
         Self {
             fixed,
             scene,
             always,
-            fingerprints: vec![0; passes],
-            run: vec![false; passes],
-            needed: vec![false; plan.ports.len()],
-            holds: vec![None; plan.slots.len()],
-            given: vec![false; plan.ports.len()],
+            fingerprints: plan.passes.column(0),
+            run: plan.passes.column(false),
+            needed: plan.ports.column(false),
+            holds: plan.slots.column(None),
+            given: plan.ports.column(false),
             roots,
             frame: 0,
         }
@@ -84,36 +78,36 @@ impl Freshness {
     }
 
     /// What a pass has written is not there any more: it runs in the next frame, and nothing else does for that.
-    pub(crate) fn forget_pass(&mut self, plan: &Plan, pass: u32) {
+    pub(crate) fn forget_pass(&mut self, plan: &Plan, pass: Handle<PlannedPass>) {
         for port in plan.outputs_of(pass) {
-            self.holds[plan.ports[port as usize].slot as usize] = None;
+            self.holds[plan.ports[port].slot] = None;
         }
     }
 
     /// The port's slot holds what was put there from outside; its pass need not run for it any more.
-    pub(crate) fn give(&mut self, plan: &Plan, port: usize) {
+    pub(crate) fn give(&mut self, plan: &Plan, port: Handle<PlannedPort>) {
         self.given[port] = true;
-        self.holds[plan.ports[port].slot as usize] = Some((port, 0));
+        self.holds[plan.ports[port].slot] = Some((port, 0));
     }
 
     /// Whether this pass runs in this frame.
-    pub(crate) fn runs(&self, pass: usize) -> bool {
+    pub(crate) fn runs(&self, pass: Handle<PlannedPass>) -> bool {
         self.run[pass]
     }
 
     /// Whether the port's slot still holds what the port last was.
-    pub(crate) fn holds(&self, plan: &Plan, port: usize) -> bool {
+    pub(crate) fn holds(&self, plan: &Plan, port: Handle<PlannedPort>) -> bool {
         let planned = &plan.ports[port];
-        planned.pass.is_none() || self.holds[planned.slot as usize].is_some_and(|(held, _)| held == port)
+        planned.pass.is_none() || self.holds[planned.slot].is_some_and(|(held, _)| held == port)
     }
 
     /// Decides which passes run in this frame, and says how many.
     pub(crate) fn decide(
         &mut self,
         plan: &Plan,
-        values: &[Vec<ParamValue>],
+        values: &Table<PlannedPass, Values>,
         scene: &SceneBuffers,
-        programs: &[Box<dyn Program>],
+        programs: &Table<PlannedPass, Box<dyn Program>>,
         everything: bool,
     ) -> usize {
         self.frame += 1;
@@ -122,7 +116,7 @@ impl Freshness {
             self.run.fill(true);
             return self.run.len();
         }
-        for pass in 0..self.run.len() {
+        for pass in plan.passes.handles() {
             self.run[pass] = self.always[pass] && !self.is_given(plan, pass);
         }
         loop {
@@ -138,11 +132,11 @@ impl Freshness {
     fn fingerprint(
         &mut self,
         plan: &Plan,
-        values: &[Vec<ParamValue>],
+        values: &Table<PlannedPass, Values>,
         scene: &SceneBuffers,
-        programs: &[Box<dyn Program>],
+        programs: &Table<PlannedPass, Box<dyn Program>>,
     ) {
-        for index in 0..plan.passes.len() {
+        for index in plan.passes.handles() {
             let mut hasher = DefaultHasher::new();
             self.fixed[index].hash(&mut hasher);
             programs[index].fingerprint().hash(&mut hasher);
@@ -152,10 +146,10 @@ impl Freshness {
             for &data in &self.scene[index] {
                 scene.version(data).hash(&mut hasher);
             }
-            for source in plan.sources(index as u32).iter().flatten() {
+            for source in plan.sources(index).iter().flatten() {
                 source.hash(&mut hasher);
-                if let Some(producer) = plan.ports[*source as usize].pass {
-                    self.fingerprints[producer as usize].hash(&mut hasher);
+                if let Some(producer) = plan.ports[*source].pass {
+                    self.fingerprints[producer].hash(&mut hasher);
                 }
             }
             // What a history holds has no fingerprint; the number of the frame stands for it.
@@ -168,40 +162,40 @@ impl Freshness {
 
     /// Marks every pass that must run because something that runs, or a root, reads a port which is not there.
     fn pull(&mut self, plan: &Plan) {
-        for (port, planned) in plan.ports.iter().enumerate() {
+        for (port, planned) in plan.ports.entries() {
             if let Some(pass) = planned.pass
                 && self.roots[port]
                 && !self.valid(plan, port)
             {
-                self.run[pass as usize] = true;
+                self.run[pass] = true;
             }
         }
-        for index in (0..plan.passes.len()).rev() {
+        for index in plan.passes.handles().rev() {
             if !self.run[index] {
                 continue;
             }
-            for source in plan.sources(index as u32).iter().flatten() {
-                if let Some(pass) = plan.ports[*source as usize].pass
-                    && !self.valid(plan, *source as usize)
+            for source in plan.sources(index).iter().flatten() {
+                if let Some(pass) = plan.ports[*source].pass
+                    && !self.valid(plan, *source)
                 {
-                    self.run[pass as usize] = true;
+                    self.run[pass] = true;
                 }
             }
         }
     }
 
     /// All that a pass writes was put there from outside, and it does nothing else.
-    fn is_given(&self, plan: &Plan, pass: usize) -> bool {
-        let mut outputs = plan.outputs_of(pass as u32);
-        let writes_alone = !plan.descriptor(pass as u32).side_effect && !outputs.is_empty();
-        writes_alone && outputs.all(|port| self.given[port as usize])
+    fn is_given(&self, plan: &Plan, pass: Handle<PlannedPass>) -> bool {
+        let mut outputs = plan.outputs_of(pass);
+        let writes_alone = !plan.descriptor(pass).side_effect && outputs.len() > 0;
+        writes_alone && outputs.all(|port| self.given[port])
     }
 
-    fn valid(&self, plan: &Plan, port: usize) -> bool {
+    fn valid(&self, plan: &Plan, port: Handle<PlannedPort>) -> bool {
         let planned = &plan.ports[port];
         let Some(pass) = planned.pass else { return true };
-        self.holds[planned.slot as usize].is_some_and(|(held, fingerprint)| {
-            held == port && (self.given[port] || fingerprint == self.fingerprints[pass as usize])
+        self.holds[planned.slot].is_some_and(|(held, fingerprint)| {
+            held == port && (self.given[port] || fingerprint == self.fingerprints[pass])
         })
     }
 
@@ -209,21 +203,21 @@ impl Freshness {
     /// Says whether there was one.
     fn overwritten(&mut self, plan: &Plan) -> bool {
         self.needed.fill(false);
-        for index in 0..plan.passes.len() {
+        for index in plan.passes.handles() {
             if self.run[index] {
-                for source in plan.sources(index as u32).iter().flatten() {
-                    self.needed[*source as usize] = true;
+                for source in plan.sources(index).iter().flatten() {
+                    self.needed[*source] = true;
                 }
             }
         }
         let mut changed = false;
-        for (port, planned) in plan.ports.iter().enumerate() {
-            let Some(pass) = planned.pass.map(|pass| pass as usize) else { continue };
+        for (port, planned) in plan.ports.entries() {
+            let Some(pass) = planned.pass else { continue };
             if self.run[pass] || !(self.needed[port] || self.roots[port]) {
                 continue;
             }
-            let others = plan.ports_in(planned.slot).filter_map(|other| plan.ports[other as usize].pass);
-            if others.map(|other| other as usize).any(|other| other < pass && self.run[other]) {
+            let mut others = plan.ports_in(planned.slot).filter_map(|other| plan.ports[other].pass);
+            if others.any(|other| other < pass && self.run[other]) {
                 self.run[pass] = true;
                 changed = true;
             }
@@ -235,11 +229,10 @@ impl Freshness {
     pub(crate) fn remember(&mut self, plan: &Plan) {
         for step in &plan.steps {
             if let Step::Run { pass } = *step
-                && self.run[pass as usize]
+                && self.run[pass]
             {
                 for port in plan.outputs_of(pass) {
-                    let held = (port as usize, self.fingerprints[pass as usize]);
-                    self.holds[plan.ports[port as usize].slot as usize] = Some(held);
+                    self.holds[plan.ports[port].slot] = Some((port, self.fingerprints[pass]));
                 }
             }
         }

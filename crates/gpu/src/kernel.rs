@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use tyndall_graph::{Handle, Slot};
 use tyndall_shader::Linked;
 
 use crate::bindings::{Bindings, constants};
@@ -53,7 +54,7 @@ pub struct Raster {
 
 /// What a [`Raster`] draws into.
 pub(crate) struct Attachment {
-    pub slot: usize,
+    pub slot: Handle<Slot>,
     pub clear: Option<[f64; 4]>,
 }
 

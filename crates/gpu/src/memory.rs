@@ -14,7 +14,7 @@ use crate::slots::slot_name;
 /// # Errors
 /// [`GpuError::OverLimit`], [`GpuError::TooLittleMemory`].
 pub fn check(gpu: &Gpu, plan: &Plan, readback: u64) -> Result<(), GpuError> {
-    for (index, slot) in plan.slots.iter().enumerate() {
+    for (index, slot) in plan.slots.entries() {
         within_limits(gpu, &slot_name(plan, index), &slot.resource)?;
     }
     let needed = plan.slots.iter().map(|slot| slot.resource.bytes()).sum::<u64>() + readback;

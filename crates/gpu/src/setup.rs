@@ -1,9 +1,9 @@
 //! What a pass sees when it is made ready for a plan, and when it records a frame.
 
-use tyndall_graph::Resource;
-use tyndall_graph::descriptor::{Format, ParamValue};
+use tyndall_graph::descriptor::{Format, ParamValue, PortDescriptor};
+use tyndall_graph::{Handle, Resource, Slot};
 
-use crate::bindings::Bound;
+use crate::bindings::{Bound, Values};
 use crate::cache::PipelineCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -51,7 +51,7 @@ pub struct Setup<'a> {
     pub gpu: &'a Gpu,
     /// The pass within its plan.
     pub pass: PlannedView<'a>,
-    pub(crate) values: &'a [ParamValue],
+    pub(crate) values: &'a Values,
     pub(crate) scene: &'a mut SceneBuffers,
     pub(crate) cache: &'a mut PipelineCache,
 }
@@ -59,11 +59,11 @@ pub struct Setup<'a> {
 impl Setup<'_> {
     /// The value of a parameter at this moment; a parameter that is not `fixed` may change from frame to frame.
     pub fn param(&self, name: &str) -> Option<&ParamValue> {
-        self.values.get(self.pass.param(name)?)
+        Some(&self.values[self.pass.param(name)?])
     }
 
     /// The slot and the format of a texture port.
-    pub(crate) fn target(&self, port: &str) -> Result<(usize, Format), GpuError> {
+    pub(crate) fn target(&self, port: &str) -> Result<(Handle<Slot>, Format), GpuError> {
         let index = self.pass.port(port)?;
         match (self.pass.slot(index), self.pass.resource(index)) {
             (Some(slot), Some(Resource::Texture { format, .. })) => Ok((slot, *format)),
@@ -78,7 +78,7 @@ pub struct Recorder<'a> {
     pub(crate) bound: Bound<'a>,
     /// The pass within its plan.
     pub pass: PlannedView<'a>,
-    pub(crate) values: &'a [ParamValue],
+    pub(crate) values: &'a Values,
     pub(crate) stamps: Option<&'a mut Stamps>,
 }
 
@@ -88,8 +88,8 @@ impl Recorder<'_> {
         self.bound.scene.count(name)
     }
 
-    /// Values of the parameters, in the order of the descriptor.
-    pub fn values(&self) -> &[ParamValue] {
+    /// Values of the parameters.
+    pub fn values(&self) -> &Values {
         self.values
     }
 
@@ -133,7 +133,7 @@ impl Recorder<'_> {
         raster.bindings.update(self.bound.gpu, self.values, &self.pass.descriptor().params);
         let group = raster.bindings.group(&self.bound)?;
         let stamps = self.stamps.as_deref_mut().and_then(Stamps::next);
-        let view = |slot: usize| match &self.bound.slots[slot] {
+        let view = |slot: Handle<Slot>| match &self.bound.slots[slot] {
             Physical::Texture { view, .. } => Some(view),
             Physical::Buffer(_) => None,
         };
@@ -177,7 +177,7 @@ impl Recorder<'_> {
     ///
     /// # Errors
     /// [`GpuError::Pass`] where the port is no texture or the data are of another size.
-    pub fn write_texture(&mut self, port: usize, data: &[u8]) -> Result<(), GpuError> {
+    pub fn write_texture(&mut self, port: Handle<PortDescriptor>, data: &[u8]) -> Result<(), GpuError> {
         let texture = self.pass.slot(port).and_then(|slot| self.bound.slots[slot].texture());
         let (Some(texture), Some(resource @ Resource::Texture { format, width, height, .. })) =
             (texture, self.pass.resource(port))

@@ -1,7 +1,7 @@
 //! The plan's slots as textures and buffers.
 
 use tyndall_graph::descriptor::{Dimension, Format, Scalar};
-use tyndall_graph::{Plan, Resource, Slot, SlotKind};
+use tyndall_graph::{Handle, Plan, Resource, Slot, SlotKind, Table};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -49,13 +49,13 @@ pub(crate) fn view_dimension(dimension: Dimension) -> wgpu::TextureViewDimension
 }
 
 /// Creates every slot of a plan, labelled with the ports that live in it.
-pub(crate) fn create_all(gpu: &Gpu, plan: &Plan) -> Result<Vec<Physical>, GpuError> {
-    plan.slots.iter().enumerate().map(|(index, slot)| create(gpu, &slot_name(plan, index), slot)).collect()
+pub(crate) fn create_all(gpu: &Gpu, plan: &Plan) -> Result<Table<Slot, Physical>, GpuError> {
+    plan.slots.entries().map(|(index, slot)| create(gpu, &slot_name(plan, index), slot)).collect()
 }
 
 /// The ports that live in a slot, `a.x | b.y`; what else it is where none does.
-pub(crate) fn slot_name(plan: &Plan, index: usize) -> String {
-    let names: Vec<String> = plan.ports_in(index as u32).map(|port| plan.port_name(port)).collect();
+pub(crate) fn slot_name(plan: &Plan, index: Handle<Slot>) -> String {
+    let names: Vec<String> = plan.ports_in(index).map(|port| plan.port_name(port)).collect();
     match plan.slots[index].kind {
         SlotKind::History { of, .. } => format!("{} (previous)", plan.port_name(of)),
         _ if names.is_empty() => "constant".to_owned(),
@@ -117,7 +117,7 @@ fn usages(slot: &Slot) -> wgpu::TextureUsages {
 }
 
 /// Fills the slots whose content is stated by the plan: constants, and histories before the first frame.
-pub(crate) fn fill_stated(gpu: &Gpu, plan: &Plan, slots: &[Physical]) -> Result<(), GpuError> {
+pub(crate) fn fill_stated(gpu: &Gpu, plan: &Plan, slots: &Table<Slot, Physical>) -> Result<(), GpuError> {
     for (slot, physical) in plan.slots.iter().zip(slots) {
         if let Some(value) = slot.initial() {
             fill(gpu, &slot.resource, physical, value)?;

@@ -2,6 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use tyndall_graph::{Handle, PlannedPass};
+
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::readback::read_bytes;
@@ -19,7 +21,7 @@ pub enum Timing {
     /// From the frame's first command to its last.
     Frame,
     /// One pass, by its position in the plan.
-    Pass(usize),
+    Pass(Handle<PlannedPass>),
     /// Every pass that runs, each submitted by itself and waited for: from submission to completion, into the counters.
     /// No more than an estimate, which holds what a submission costs as well.
     Each,

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use tyndall_graph::descriptor::PassDescriptor;
-use tyndall_graph::{Plan, Resource};
+use tyndall_graph::descriptor::{ParamDescriptor, PassDescriptor, PortDescriptor};
+use tyndall_graph::{Handle, Plan, PlannedPass, Resource, Slot};
 
 use crate::error::GpuError;
 
@@ -11,7 +11,7 @@ use crate::error::GpuError;
 #[derive(Clone, Copy)]
 pub struct PlannedView<'a> {
     pub(crate) plan: &'a Plan,
-    pub(crate) position: u32,
+    pub(crate) position: Handle<PlannedPass>,
 }
 
 impl<'a> PlannedView<'a> {
@@ -25,26 +25,25 @@ impl<'a> PlannedView<'a> {
         self.plan.descriptor(self.position)
     }
 
-    /// What a port is in this plan, by its index in the descriptor.
-    pub fn resource(self, port: usize) -> Option<&'a Resource> {
+    /// What a port is in this plan.
+    pub fn resource(self, port: Handle<PortDescriptor>) -> Option<&'a Resource> {
         self.slot(port).map(|slot| &self.plan.slots[slot].resource)
     }
 
-    /// The index of a port in the descriptor.
+    /// The port of this name.
     ///
     /// # Errors
     /// [`GpuError::Pass`] where the pass declares no such port.
-    pub fn port(self, name: &str) -> Result<usize, GpuError> {
-        let index = self.descriptor().ports.iter().position(|port| port.name == name);
-        index.ok_or_else(|| self.refuse(format!("it declares no port `{name}`")))
+    pub fn port(self, name: &str) -> Result<Handle<PortDescriptor>, GpuError> {
+        self.descriptor().port_named(name).ok_or_else(|| self.refuse(format!("it declares no port `{name}`")))
     }
 
-    pub(crate) fn slot(self, port: usize) -> Option<usize> {
-        self.plan.bindings(self.position)[port].map(|slot| slot as usize)
+    pub(crate) fn slot(self, port: Handle<PortDescriptor>) -> Option<Handle<Slot>> {
+        self.plan.bindings(self.position)[port]
     }
 
-    pub(crate) fn param(self, name: &str) -> Option<usize> {
-        self.descriptor().params.iter().position(|param| param.name == name)
+    pub(crate) fn param(self, name: &str) -> Option<Handle<ParamDescriptor>> {
+        self.descriptor().param_named(name)
     }
 
     /// An error of this pass.

@@ -5,6 +5,8 @@
 
 use std::fmt;
 
+use crate::handle::{Handle, Table};
+
 /// Everything that the framework knows about a pass without running it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PassDescriptor {
@@ -15,9 +17,9 @@ pub struct PassDescriptor {
     /// Paper and equation that it comes from; empty where there is none.
     pub source: String,
     /// Inputs and outputs, in the order in which they are documented.
-    pub ports: Vec<PortDescriptor>,
+    pub ports: Table<PortDescriptor>,
     /// Parameters, in the order in which they are documented.
-    pub params: Vec<ParamDescriptor>,
+    pub params: Table<ParamDescriptor>,
     /// Values of several parameters under one word. Where there are any, the pass has a parameter [`PRESET`] whose
     /// choices are their names; they stand in for the defaults, so a parameter that is given keeps what it is given.
     pub presets: Vec<Preset>,
@@ -45,9 +47,24 @@ impl PassDescriptor {
         self.ports.iter().find(|port| port.name == name)
     }
 
+    /// The handle of the port of this name.
+    pub fn port_named(&self, name: &str) -> Option<Handle<PortDescriptor>> {
+        self.ports.position(|port| port.name == name)
+    }
+
     /// The parameter of this name.
     pub fn param(&self, name: &str) -> Option<&ParamDescriptor> {
         self.params.iter().find(|param| param.name == name)
+    }
+
+    /// The handle of the parameter of this name.
+    pub fn param_named(&self, name: &str) -> Option<Handle<ParamDescriptor>> {
+        self.params.position(|param| param.name == name)
+    }
+
+    /// Whether it reads what was written in the frame before.
+    pub fn remembers(&self) -> bool {
+        self.ports.iter().any(|port| matches!(port.role, Role::History(_)))
     }
 }
 
@@ -459,6 +476,17 @@ pub enum Axis {
     X,
     Y,
     Z,
+}
+
+impl Axis {
+    /// The extent of a size along this axis.
+    pub(crate) fn of(self, [x, y, z]: [u32; 3]) -> u32 {
+        match self {
+            Axis::X => x,
+            Axis::Y => y,
+            Axis::Z => z,
+        }
+    }
 }
 
 /// One parameter of a pass.

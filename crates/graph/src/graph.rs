@@ -2,17 +2,15 @@
 
 use std::sync::Arc;
 
-use petgraph::Direction;
-use petgraph::graph::{DiGraph, NodeIndex};
-use petgraph::visit::EdgeRef;
 use rustc_hash::FxHashMap;
 use tyndall_document::{Diagnostic, Place, Source, Span, near};
 
 use crate::catalogue::Kind;
 use crate::codes;
-use crate::descriptor::{ParamValue, PassDescriptor, PortDescriptor};
+use crate::descriptor::{ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor};
+use crate::handle::{Handle, Table};
 use crate::names::Names;
-use crate::table::Table;
+use crate::wiring::Wiring;
 
 /// A typed graph: passes joined by connections between their ports, as the file has them.
 ///
@@ -29,16 +27,18 @@ pub struct Graph {
     pub size: (u32, u32),
     /// Graph parameters with the values that they have after overrides, in file order.
     pub params: Vec<GraphParam>,
-    /// Passes in file order, and connections from the pass that writes to the pass that reads.
-    pub passes: DiGraph<Pass, Connection>,
+    /// Passes in file order.
+    pub passes: Table<Pass>,
+    /// Connections in file order, each from a port that one pass writes to a port that another, or the same, reads.
+    pub connections: Table<Connection>,
     /// Outputs in file order.
     pub outputs: Vec<(String, PortRef)>,
-    pub(crate) names: Names,
+    pub(crate) names: Names<Pass>,
     /// Where the parameters that set sizes are set; of one that is not, its pass.
     pub(crate) size_param_places: FxHashMap<ParamRef, Place>,
     /// Width and height of the pictures whose size sets that of a port.
     pub(crate) pictures: FxHashMap<ParamRef, (u32, u32)>,
-    pub(crate) table: Table,
+    pub(crate) wiring: Wiring,
 }
 
 /// One pass of a graph.
@@ -49,7 +49,7 @@ pub struct Pass {
     /// Where the name stands.
     pub span: Span,
     /// Settings, one for each of the descriptor's parameters.
-    pub params: Vec<ParamSetting>,
+    pub params: Table<ParamDescriptor, ParamSetting>,
     /// Whether it is switched on.
     pub enabled: bool,
     /// The graph parameter that switches it, where one does.
@@ -78,32 +78,32 @@ pub enum ParamSetting {
 /// An edge of the graph.
 #[derive(Debug, Clone)]
 pub struct Connection {
-    /// Index of the port among the writing pass's ports.
-    pub from: u32,
-    /// Index of the port among the reading pass's ports.
-    pub to: u32,
+    /// The port that is written.
+    pub from: PortRef,
+    /// The port that reads it.
+    pub to: PortRef,
     /// It carries what was written in the frame before, and so orders nothing.
     pub history: bool,
     /// Where `"pass.port"` stands.
     pub span: Span,
 }
 
-/// A port of a pass, by index.
+/// A port of a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct PortRef {
-    /// Index of the pass in the graph.
-    pub pass: u32,
-    /// Index of the port in the pass's descriptor.
-    pub port: u32,
+    /// The pass in the graph.
+    pub pass: Handle<Pass>,
+    /// The port in the pass's descriptor.
+    pub port: Handle<PortDescriptor>,
 }
 
-/// A parameter of a pass, by index.
+/// A parameter of a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ParamRef {
-    /// Index of the pass in the graph.
-    pub pass: u32,
-    /// Index of the parameter in the pass's descriptor.
-    pub param: u32,
+    /// The pass in the graph.
+    pub pass: Handle<Pass>,
+    /// The parameter in the pass's descriptor.
+    pub param: Handle<ParamDescriptor>,
 }
 
 /// A parameter of the graph.
@@ -119,33 +119,44 @@ pub struct GraphParam {
 }
 
 impl Graph {
-    /// The pass at this index.
-    pub fn pass(&self, index: u32) -> &Pass {
-        &self.passes[NodeIndex::new(index as usize)]
+    /// The pass of this handle.
+    pub fn pass(&self, pass: Handle<Pass>) -> &Pass {
+        &self.passes[pass]
     }
 
-    /// Index of the pass of this name.
-    pub fn pass_named(&self, name: &str) -> Option<u32> {
-        self.names.find(name, |pass| self.pass(pass).name == name)
+    /// The pass of this name.
+    pub fn pass_named(&self, name: &str) -> Option<Handle<Pass>> {
+        self.names.find(name, |pass| self.passes[pass].name == name)
     }
 
     /// Whether a pass that is on feeds this input of the pass.
-    pub fn is_fed(&self, pass: u32, input: &str) -> bool {
-        let ports = &self.pass(pass).descriptor().ports;
-        let edges = self.passes.edges_directed(NodeIndex::new(pass as usize), Direction::Incoming);
-        edges
-            .filter(|edge| self.passes[edge.source()].enabled)
-            .any(|edge| ports[edge.weight().to as usize].name == input)
+    pub fn is_fed(&self, pass: Handle<Pass>, input: &str) -> bool {
+        let port = self.passes[pass].descriptor().port_named(input);
+        let connection = port.and_then(|port| self.connection_to(PortRef { pass, port }));
+        connection.is_some_and(|connection| self.passes[connection.from.pass].enabled)
+    }
+
+    /// The connection that the file makes to a port.
+    pub fn connection_to(&self, port: PortRef) -> Option<&Connection> {
+        self.wiring.connection_to[self.wiring.port(port)].map(|connection| &self.connections[connection])
     }
 
     /// What the pass declares about this port.
     pub fn port(&self, port: PortRef) -> &PortDescriptor {
-        &self.pass(port.pass).descriptor().ports[port.port as usize]
+        &self.passes[port.pass].descriptor().ports[port.port]
     }
 
     /// `pass.port`.
     pub fn port_name(&self, port: PortRef) -> String {
-        format!("{}.{}", self.pass(port.pass).name, self.port(port).name)
+        format!("{}.{}", self.passes[port.pass].name, self.port(port).name)
+    }
+
+    /// Every port that a pass writes, those of passes that are switched off too, in file order.
+    pub fn written_ports(&self) -> impl Iterator<Item = PortRef> + '_ {
+        self.passes.entries().flat_map(|(pass, of)| {
+            let ports = of.descriptor().ports.entries().filter(|(_, port)| port.role.is_output());
+            ports.map(move |(port, _)| PortRef { pass, port })
+        })
     }
 
     /// The port that a name means: an output of the graph, or `pass.port` with a port that the pass writes.
@@ -160,9 +171,9 @@ impl Graph {
             let near = near(pass_name, self.pass_names()).map(|near| format!("did you mean `{near}.{port_name}`?"));
             return Err(suggest(Diagnostic::error(codes::UNKNOWN_REFERENCE, place, message), near));
         };
-        let descriptor = self.pass(pass).descriptor();
-        match descriptor.ports.iter().position(|port| port.name == port_name) {
-            Some(port) if descriptor.ports[port].role.is_output() => Ok(PortRef { pass, port: port as u32 }),
+        let descriptor = self.passes[pass].descriptor();
+        match descriptor.port_named(port_name) {
+            Some(port) if descriptor.ports[port].role.is_output() => Ok(PortRef { pass, port }),
             Some(_) => {
                 let message =
                     format!("`{port_name}` is an input of `{}`, and nothing can be read from it", descriptor.name);
@@ -201,10 +212,9 @@ impl Graph {
                 .map(|param| param.uses.clone())
                 .unwrap_or_default();
         };
-        let found = self.pass_named(pass).and_then(|pass| {
-            let param = self.pass(pass).descriptor().params.iter().position(|descriptor| descriptor.name == param)?;
-            Some(ParamRef { pass, param: param as u32 })
-        });
+        let found = self
+            .pass_named(pass)
+            .and_then(|pass| Some(ParamRef { pass, param: self.passes[pass].descriptor().param_named(param)? }));
         found.into_iter().collect()
     }
 
@@ -214,15 +224,15 @@ impl Graph {
     }
 
     /// The value of an integer parameter that sets a size. One that changes with the frame was refused before.
-    pub(crate) fn size_param(&self, pass: u32, param: u32) -> i64 {
-        match self.pass(pass).params.get(param as usize) {
-            Some(ParamSetting::Value(ParamValue::Integer(value))) => *value,
+    pub(crate) fn size_param(&self, ParamRef { pass, param }: ParamRef) -> i64 {
+        match self.passes[pass].params[param] {
+            ParamSetting::Value(ParamValue::Integer(value)) => value,
             _ => 1,
         }
     }
 
     pub(crate) fn pass_names(&self) -> impl Iterator<Item = &str> {
-        self.passes.node_weights().map(|pass| pass.name.as_str())
+        self.passes.iter().map(|pass| pass.name.as_str())
     }
 
     fn output_names(&self) -> String {

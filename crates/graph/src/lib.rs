@@ -18,23 +18,25 @@ pub mod descriptor;
 mod explain;
 mod file;
 mod graph;
+mod handle;
 mod names;
 mod overrides;
 mod plan;
 pub mod show;
 mod signature;
-mod table;
 mod validate;
+mod wiring;
 
 pub use catalogue::{Catalogue, PictureSize};
 pub use codes::CODES;
 pub use explain::explain;
 pub use file::{GraphFile, InputEntry, OutputEntry, ParamEntry, PassEntry, Spanned, Switch, Text, read};
 pub use graph::{Connection, Graph, GraphParam, ParamRef, ParamSetting, Pass, PortRef};
+pub use handle::{Handle, Handles, Segment, Slice, Table};
 pub use overrides::{Override, Overrides};
 pub use plan::{
     Bytes, ClassBytes, CullReason, Culled, Keep, Order, Plan, PlanOptions, PlannedPass, PlannedPort, Resource, Roots,
-    Slot, SlotKind, Step, Usages, plan,
+    Slot, SlotKind, Step, Until, Usages, plan,
 };
 pub use signature::DescriptorError;
 pub use validate::{validate, validate_with};

@@ -1,45 +1,44 @@
-//! Indices by name, without the names: they stand where the indices lead.
+//! Handles by name, without the names: they stand where the handles lead.
 
 use std::hash::Hasher;
 
 use rustc_hash::FxHasher;
 
-/// A hash table of indices. Whoever asks says which name an index has.
-#[derive(Debug, Default)]
-pub(crate) struct Names {
-    /// Half a hash and an index each; half of them free, so that a search ends soon.
-    entries: Vec<Option<(u32, u32)>>,
+use crate::handle::Handle;
+
+/// A hash table of handles. Whoever asks says which name a handle has.
+#[derive(Debug)]
+pub(crate) struct Names<T> {
+    /// Half a hash and a handle each; half of them free, so that a search ends soon.
+    entries: Vec<Option<(u32, Handle<T>)>>,
 }
 
-impl Names {
+impl<T> Names<T> {
     /// Room for so many names.
     pub fn with_capacity(names: usize) -> Self {
         Self { entries: vec![None; (2 * names).next_power_of_two()] }
     }
 
-    /// Adds an index, unless there is one of this name. No more may be added than there is room for.
-    pub fn insert(&mut self, name: &str, index: u32, name_of: impl Fn(u32) -> bool) {
+    /// Adds a handle, unless there is one of this name. No more may be added than there is room for.
+    pub fn insert(&mut self, name: &str, handle: Handle<T>, is_named: impl Fn(Handle<T>) -> bool) {
         let hash = hash(name);
-        if let Err(free) = self.search(hash, name_of) {
-            self.entries[free] = Some((hash, index));
+        if let Err(free) = self.search(hash, is_named) {
+            self.entries[free] = Some((hash, handle));
         }
     }
 
-    /// The index of this name; `is_named` says whether an index has it.
-    pub fn find(&self, name: &str, is_named: impl Fn(u32) -> bool) -> Option<u32> {
-        if self.entries.is_empty() {
-            return None;
-        }
+    /// The handle of this name; `is_named` says whether a handle has it.
+    pub fn find(&self, name: &str, is_named: impl Fn(Handle<T>) -> bool) -> Option<Handle<T>> {
         self.search(hash(name), is_named).ok()
     }
 
-    /// The index, or the free entry where it would stand.
-    fn search(&self, hash: u32, is_named: impl Fn(u32) -> bool) -> Result<u32, usize> {
+    /// The handle, or the free entry where it would stand.
+    fn search(&self, hash: u32, is_named: impl Fn(Handle<T>) -> bool) -> Result<Handle<T>, usize> {
         let mask = self.entries.len() - 1;
         let mut at = hash as usize & mask;
-        while let Some((other, index)) = self.entries[at] {
-            if other == hash && is_named(index) {
-                return Ok(index);
+        while let Some((other, handle)) = self.entries[at] {
+            if other == hash && is_named(handle) {
+                return Ok(handle);
             }
             at = (at + 1) & mask;
         }

@@ -143,7 +143,7 @@ fn deep_chains_and_long_loops_do_not_overflow_the_stack() {
     let file = read(&Source::new("chain.graph.ron", chain("tile.tile")), &mut out).unwrap();
     let graph = validate_with(&file, &catalogue(), &Overrides::default(), &|_| true, &mut out).unwrap();
     let chained = plan(&graph, &PlanOptions::new(graph.size)).unwrap();
-    assert_eq!(chained.bytes.classes[0].slots, 2);
+    assert_eq!(chained.bytes.classes.iter().next().unwrap().slots, 2);
     explain(&chained, "p0").unwrap();
     explain(&chained, "image").unwrap();
     show::text(&chained);

@@ -11,8 +11,8 @@ use support::{CONTRACT, file, graph, planned, try_graph};
 use tyndall_document::{Place, Source};
 use tyndall_graph::descriptor::ParamValue;
 use tyndall_graph::{
-    CullReason, Graph, Keep, Order, Override, Overrides, ParamSetting, Plan, PlanOptions, Roots, SlotKind, Step,
-    explain, plan, show,
+    CullReason, Graph, Handle, Keep, Order, Override, Overrides, ParamSetting, Plan, PlanOptions, Roots, Slot,
+    SlotKind, Step, Until, explain, plan, show,
 };
 
 const FOGGED: &str = r#"        "surfaces": (use: "core.gbuffer"),
@@ -47,7 +47,7 @@ fn edges(live: &[&str], animated: &[&str]) -> Keep {
 }
 
 fn names(plan: &Plan) -> Vec<&str> {
-    (0..plan.passes.len() as u32).map(|pass| plan.pass_name(pass)).collect()
+    plan.passes.handles().map(|position| plan.pass_name(position)).collect()
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn explaining_what_is_not_there_names_what_is_near() {
 fn a_drawing_has_every_pass_and_every_port() {
     let plan = with(&fogged(false, true), |_| ());
     let svg = show::svg(&plan);
-    for pass in plan.graph.passes.node_weights() {
+    for pass in &plan.graph.passes {
         assert!(svg.contains(&format!(">{}</text>", pass.name)), "{}", pass.name);
         for port in &pass.descriptor().ports {
             assert!(svg.contains(&format!(">{}</text>", port.name)), "{}", port.name);
@@ -192,15 +192,16 @@ fn a_root_a_tap_and_a_side_effect_keep_passes_alive() {
 fn a_constant_flows_out_of_a_pass_that_is_off() {
     let plan = with(&fogged(false, false), |_| ());
     let fogged = plan.graph.pass_named("fogged").unwrap();
+    let surface = plan.graph.pass(fogged).descriptor().port_named("surface").unwrap();
     let bindings = plan.bindings(plan.position(fogged).unwrap());
-    let surface = &plan.slots[bindings[0].unwrap() as usize];
+    let surface = &plan.slots[bindings[surface].unwrap()];
     assert_eq!(surface.kind, SlotKind::Constant([0.0; 4]));
     assert_eq!(surface.initial(), Some([0.0; 4]));
     assert_eq!(plan.find("lit.radiance"), None, "nobody asked for it");
     let lit = plan.graph.find("lit.radiance", Place::Argument(String::new())).unwrap();
     let plan = with(&plan.graph, |options| options.taps = vec![lit]);
-    let port = &plan.ports[plan.find("lit.radiance").unwrap() as usize];
-    assert_eq!((port.pass, plan.slots[port.slot as usize].kind), (None, SlotKind::Constant([0.0; 4])));
+    let port = &plan.ports[plan.find("lit.radiance").unwrap()];
+    assert_eq!((port.pass, plan.slots[port.slot].kind), (None, SlotKind::Constant([0.0; 4])));
 }
 
 #[test]
@@ -208,20 +209,20 @@ fn an_input_flows_through_a_pass_that_is_off() {
     let plan = with(&fogged(true, false), |_| ());
     assert_eq!(plan.find("smooth.mean"), plan.find("fogged.radiance"));
     let graded = plan.position(plan.graph.pass_named("graded").unwrap()).unwrap();
-    assert_eq!(plan.sources(graded)[0], plan.find("fogged.radiance"));
-    assert!(plan.ports[plan.find("graded.image").unwrap() as usize].in_place);
+    let image = plan.descriptor(graded).port_named("image").unwrap();
+    assert_eq!(plan.sources(graded)[image], plan.find("fogged.radiance"));
+    assert!(plan.ports[plan.find("graded.image").unwrap()].in_place);
 }
 
 #[test]
 fn history_is_carried_and_its_writer_lives_to_the_end() {
     let plan = with(&fogged(true, true), |_| ());
     let mean = plan.find("smooth.mean").unwrap();
-    let (slot, history) =
-        plan.slots.iter().enumerate().find(|(_, slot)| matches!(slot.kind, SlotKind::History { .. })).unwrap();
+    let (slot, history) = plan.slots.entries().find(|(_, slot)| matches!(slot.kind, SlotKind::History { .. })).unwrap();
     assert_eq!(history.kind, SlotKind::History { of: mean, first: [0.0; 4] });
-    let from = plan.ports[mean as usize].slot;
-    assert_eq!(plan.steps.last(), Some(&Step::Carry { from, to: slot as u32 }));
-    assert_eq!(plan.ports[mean as usize].lifetime.1 as usize, plan.passes.len());
+    let from = plan.ports[mean].slot;
+    assert_eq!(plan.steps.last(), Some(&Step::Carry { from, to: slot }));
+    assert_eq!(plan.ports[mean].until, Until::End);
 }
 
 #[test]
@@ -242,7 +243,7 @@ fn what_is_still_needed_is_changed_in_a_copy() {
         .filter_map(|step| if let Step::Copy { pass, .. } = step { Some(plan.pass_name(*pass)) } else { None })
         .collect();
     assert_eq!(copies, ["graded"]);
-    let slot = |name: &str| plan.ports[plan.find(name).unwrap() as usize].slot;
+    let slot = |name: &str| plan.ports[plan.find(name).unwrap()].slot;
     assert_ne!(slot("tile.image"), slot("graded.image"));
     assert_eq!(slot("graded.image"), slot("again.image"));
 }
@@ -250,7 +251,7 @@ fn what_is_still_needed_is_changed_in_a_copy() {
 #[test]
 fn without_sharing_every_port_has_its_own_slot() {
     let plan = with(&fogged(true, true), |options| options.share = false);
-    let slots: BTreeSet<u32> = plan.ports.iter().map(|port| port.slot).collect();
+    let slots: BTreeSet<Handle<Slot>> = plan.ports.iter().map(|port| port.slot).collect();
     assert_eq!(slots.len(), plan.ports.len());
 }
 
@@ -258,7 +259,7 @@ fn without_sharing_every_port_has_its_own_slot() {
 fn a_live_parameter_runs_only_what_is_behind_it() {
     let volatile = |keep: Keep| -> Vec<String> {
         let plan = with(&fogged(true, false), |options| options.keep = keep);
-        let volatile = (0..plan.passes.len() as u32).filter(|pass| plan.passes[*pass as usize].volatile);
+        let volatile = plan.passes.handles().filter(|position| plan.passes[*position].volatile);
         volatile.map(|pass| plan.pass_name(pass).to_owned()).collect()
     };
     assert_eq!(volatile(edges(&["display.exposure"], &[])), ["display"]);
@@ -275,10 +276,8 @@ fn kept_ports_leave_their_class_and_both_figures_are_those_of_nothing_kept() {
     let nothing = with(&all, |_| ());
     let kept = with(&all, |options| options.keep = edges(&["display.exposure"], &[]));
     assert_eq!((kept.bytes.shared, kept.bytes.unshared), (nothing.bytes.shared, nothing.bytes.unshared));
-    let names: Vec<String> = (0..kept.ports.len() as u32)
-        .filter(|port| kept.ports[*port as usize].kept)
-        .map(|port| kept.port_name(port))
-        .collect();
+    let names: Vec<String> =
+        kept.ports.handles().filter(|port| kept.ports[*port].kept).map(|port| kept.port_name(port)).collect();
     assert_eq!(names, ["air.radiance", "graded.image"]);
 }
 
@@ -295,7 +294,7 @@ fn the_command_line_wins_and_the_last_of_a_name() {
     let exposure = |params: Vec<Override>| {
         let graph = try_graph(&text, &Overrides { params, ..Overrides::default() }).unwrap();
         let display = graph.pass(graph.pass_named("display").unwrap());
-        display.params[0].clone()
+        display.params[display.descriptor().param_named("exposure").unwrap()].clone()
     };
     let value = |value: f64| ParamSetting::Value(ParamValue::Float(value));
     assert_eq!(exposure(vec![]), value(1.0));
@@ -325,7 +324,8 @@ fn paths_are_beside_the_file_that_holds_them() {
     );
     let read = |params: Vec<Override>| {
         let graph = try_graph(&text, &Overrides { params, ..Overrides::default() }).unwrap();
-        (graph.scene.clone().unwrap(), graph.pass(0).params[0].clone())
+        let photo = graph.pass(graph.pass_named("photo").unwrap());
+        (graph.scene.clone().unwrap(), photo.params.iter().next().unwrap().clone())
     };
     let file = |path: &str| ParamSetting::Value(ParamValue::File(path.into()));
     assert_eq!(read(vec![]), ("graphs/scenes/pavilion.scene.ron".to_owned(), file("graphs/photo.exr")));

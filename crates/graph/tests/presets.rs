@@ -48,11 +48,12 @@ fn settings(params: &str, arguments: &[&str]) -> Result<[ParamValue; 2], String>
     let overrides = Overrides { params: arguments.iter().map(parse).collect(), ..Overrides::default() };
     let graph: Option<Arc<Graph>> = validate(&file, &catalogue, &overrides, &mut out);
     let Some(graph) = graph else { return Err(tyndall_document::render_text(out.iter(), false)) };
-    let value = |index: usize| match &graph.pass(0).params[index] {
+    let air = graph.pass(graph.pass_named("air").unwrap());
+    let value = |name: &str| match &air.params[air.descriptor().param_named(name).unwrap()] {
         ParamSetting::Value(value) => value.clone(),
         live => panic!("{live:?}"),
     };
-    Ok([value(1), value(2)])
+    Ok([value("density"), value("tint")])
 }
 
 fn found(density: f64, tint: [f64; 3]) -> Result<[ParamValue; 2], String> {

@@ -11,7 +11,8 @@ use proptest::prelude::*;
 use support::random;
 use tyndall_graph::descriptor::Role;
 use tyndall_graph::{
-    Graph, Keep, Order, Plan, PlanOptions, PortRef, Resource, Roots, SlotKind, Step, explain, plan, show,
+    Graph, Handle, Keep, Order, Pass, Plan, PlanOptions, PlannedPass, PlannedPort, PortRef, Resource, Roots, Slot,
+    SlotKind, Step, Table, Until, explain, plan, show,
 };
 
 fn options() -> impl Strategy<Value = PlanOptions> {
@@ -37,42 +38,42 @@ fn options() -> impl Strategy<Value = PlanOptions> {
 enum Content {
     Nothing,
     Standing,
-    Port(u32),
+    Port(Handle<PlannedPort>),
 }
 
+type Contents = Table<Slot, Content>;
+
 /// Plays a frame: every pass finds in its bindings what its inputs should be.
-fn play(plan: &Plan, slots: &mut [Content], first_frame: bool) {
-    let runs = |pass: u32| first_frame || plan.passes[pass as usize].volatile;
+fn play(plan: &Plan, slots: &mut Contents, first_frame: bool) {
+    let runs = |position| first_frame || plan.passes[position].volatile;
     for step in &plan.steps {
         match *step {
             Step::Copy { pass, from, to } if runs(pass) => {
-                assert_eq!(plan.slots[from as usize].resource, plan.slots[to as usize].resource);
-                slots[to as usize] = slots[from as usize];
+                assert_eq!(plan.slots[from].resource, plan.slots[to].resource);
+                slots[to] = slots[from];
             }
             Step::Run { pass } if runs(pass) => run(plan, slots, pass),
             Step::Carry { from, to } => {
-                let SlotKind::History { of, .. } = plan.slots[to as usize].kind else {
-                    panic!("carried to no history")
-                };
-                assert_eq!(plan.ports[of as usize].slot, from);
-                assert_eq!(slots[from as usize], Content::Port(of));
+                let SlotKind::History { of, .. } = plan.slots[to].kind else { panic!("carried to no history") };
+                assert_eq!(plan.ports[of].slot, from);
+                assert_eq!(slots[from], Content::Port(of));
             }
             Step::Copy { .. } | Step::Run { .. } => {}
         }
     }
     for root in &plan.roots {
-        let content = slots[plan.ports[*root as usize].slot as usize];
-        let constant = plan.ports[*root as usize].pass.is_none();
+        let content = slots[plan.ports[*root].slot];
+        let constant = plan.ports[*root].pass.is_none();
         assert_eq!(content, if constant { Content::Standing } else { Content::Port(*root) });
     }
 }
 
-fn run(plan: &Plan, slots: &mut [Content], pass: u32) {
+fn run(plan: &Plan, slots: &mut Contents, pass: Handle<PlannedPass>) {
     let descriptor = plan.descriptor(pass);
     let (bindings, sources) = (plan.bindings(pass), plan.sources(pass));
     let mut written = BTreeSet::new();
     let mut read = BTreeSet::new();
-    for (index, port) in descriptor.ports.iter().enumerate() {
+    for (index, port) in descriptor.ports.entries() {
         let slot = bindings[index].expect("everything is bound");
         match (&port.role, sources[index]) {
             (Role::Output { .. }, _) => {
@@ -80,16 +81,16 @@ fn run(plan: &Plan, slots: &mut [Content], pass: u32) {
             }
             (Role::InOut, source) => {
                 let expected = source.map_or(Content::Standing, Content::Port);
-                assert_eq!(slots[slot as usize], expected, "{}", port.name);
+                assert_eq!(slots[slot], expected, "{}", port.name);
                 written.insert(slot);
             }
             (Role::History(_), _) => {
-                assert!(slots[slot as usize] == Content::Standing);
+                assert!(slots[slot] == Content::Standing);
                 read.insert(slot);
             }
             (_, source) => {
                 let expected = source.map_or(Content::Standing, Content::Port);
-                assert_eq!(slots[slot as usize], expected, "{}", port.name);
+                assert_eq!(slots[slot], expected, "{}", port.name);
                 read.insert(slot);
             }
         }
@@ -97,20 +98,21 @@ fn run(plan: &Plan, slots: &mut [Content], pass: u32) {
     assert!(written.is_disjoint(&read), "a pass reads what it writes");
     assert_eq!(written.len(), descriptor.outputs().count(), "two outputs in one slot");
     let outputs = plan.outputs_of(pass);
-    let ports = descriptor.ports.iter().enumerate().filter(|(_, port)| port.role.is_output());
+    let ports = descriptor.ports.entries().filter(|(_, port)| port.role.is_output());
     for (planned, (index, _)) in outputs.zip(ports) {
-        assert_eq!(plan.ports[planned as usize].slot, bindings[index].unwrap());
-        assert_eq!(plan.ports[planned as usize].port.port as usize, index);
-        let kind = plan.slots[plan.ports[planned as usize].slot as usize].kind;
+        let PlannedPort { slot, port, .. } = plan.ports[planned];
+        assert_eq!(slot, bindings[index].unwrap());
+        assert_eq!(port.port, index);
+        let kind = plan.slots[slot].kind;
         assert!(matches!(kind, SlotKind::Transient | SlotKind::Kept), "written to {kind:?}");
-        slots[plan.ports[planned as usize].slot as usize] = Content::Port(planned);
+        slots[slot] = Content::Port(planned);
     }
 }
 
 fn played(plan: &Plan) {
     let standing = |kind| matches!(kind, SlotKind::Constant(_) | SlotKind::History { .. });
     let content = |kind| if standing(kind) { Content::Standing } else { Content::Nothing };
-    let mut slots: Vec<Content> = plan.slots.iter().map(|slot| content(slot.kind)).collect();
+    let mut slots: Contents = plan.slots.iter().map(|slot| content(slot.kind)).collect();
     play(plan, &mut slots, true);
     // What is kept outlives the frame; of the rest nothing is sure.
     for (slot, content) in plan.slots.iter().zip(&mut slots) {
@@ -123,74 +125,75 @@ fn played(plan: &Plan) {
 
 /// Every pass stands behind those that it reads, and every one runs once.
 fn ordered(plan: &Plan) {
-    for pass in 0..plan.passes.len() as u32 {
-        for source in plan.sources(pass).iter().flatten() {
-            assert!(plan.ports[*source as usize].pass.unwrap() < pass);
+    for position in plan.passes.handles() {
+        for source in plan.sources(position).iter().flatten() {
+            assert!(plan.ports[*source].pass.unwrap() < position);
         }
-        assert_eq!(plan.position(plan.passes[pass as usize].index), Some(pass));
+        assert_eq!(plan.position(plan.passes[position].pass), Some(position));
     }
-    let runs: BTreeSet<u32> = plan.passes.iter().map(|pass| pass.index).collect();
-    let culled: BTreeSet<u32> = plan.culled.iter().map(|culled| culled.pass).collect();
+    let runs: BTreeSet<Handle<Pass>> = plan.passes.iter().map(|planned| planned.pass).collect();
+    let culled: BTreeSet<Handle<Pass>> = plan.culled.iter().map(|culled| culled.pass).collect();
     assert_eq!(runs.len(), plan.passes.len());
     assert!(runs.is_disjoint(&culled));
-    assert_eq!(runs.len() + culled.len(), plan.graph.passes.node_count());
+    assert_eq!(runs.len() + culled.len(), plan.graph.passes.len());
 }
 
 /// The passes that run are those that a search over the file's connections finds.
 fn culled_rightly(plan: &Plan, graph: &Graph, roots: &[PortRef]) {
-    use petgraph::Direction::Incoming;
-    use petgraph::visit::EdgeRef;
     let mut wanted: Vec<PortRef> = roots.to_vec();
-    let mut runs: BTreeSet<u32> = BTreeSet::new();
+    let mut runs: BTreeSet<Handle<Pass>> = BTreeSet::new();
     let mut passed: BTreeSet<PortRef> = BTreeSet::new();
-    let feeds = |pass: u32, port: Option<u32>| {
-        let edges = graph.passes.edges_directed((pass).into(), Incoming);
-        let edges = edges.filter(move |edge| port.is_none_or(|port| edge.weight().to == port));
-        edges.map(|edge| PortRef { pass: edge.source().index() as u32, port: edge.weight().from }).collect::<Vec<_>>()
+    let feeds = |pass: Handle<Pass>| {
+        let connections = graph.connections.iter().filter(move |connection| connection.to.pass == pass);
+        connections.map(|connection| connection.from)
     };
-    for pass in graph.passes.node_indices() {
-        let node = &graph.passes[pass];
+    let feeds_port = |port: PortRef| {
+        let connections = graph.connections.iter().filter(move |connection| connection.to == port);
+        connections.map(|connection| connection.from)
+    };
+    for (pass, node) in graph.passes.entries() {
         if node.enabled && node.descriptor().side_effect {
-            runs.insert(pass.index() as u32);
-            wanted.extend(feeds(pass.index() as u32, None));
+            runs.insert(pass);
+            wanted.extend(feeds(pass));
         }
     }
     while let Some(port) = wanted.pop() {
         let node = graph.pass(port.pass);
         if node.enabled {
             if runs.insert(port.pass) {
-                wanted.extend(feeds(port.pass, None));
+                wanted.extend(feeds(port.pass));
             }
         } else if passed.insert(port) {
             use tyndall_graph::descriptor::Disabled;
-            match &node.descriptor().ports[port.port as usize].role {
+            match &graph.port(port).role {
                 Role::Output { disabled: Disabled::Input(name) } => {
-                    let input = node.descriptor().ports.iter().position(|port| port.name == *name).unwrap();
-                    wanted.extend(feeds(port.pass, Some(input as u32)));
+                    let input = node.descriptor().port_named(name).unwrap();
+                    wanted.extend(feeds_port(PortRef { port: input, ..port }));
                 }
-                Role::InOut => wanted.extend(feeds(port.pass, Some(port.port))),
+                Role::InOut => wanted.extend(feeds_port(port)),
                 _ => {}
             }
         }
     }
-    assert_eq!(runs, plan.passes.iter().map(|pass| pass.index).collect());
+    assert_eq!(runs, plan.passes.iter().map(|planned| planned.pass).collect());
 }
 
 /// By resource, the most that are alive at one time: versions in place are one, and no plan can do with fewer slots.
 fn most_alive(plan: &Plan) -> BTreeMap<String, (u32, Resource)> {
-    let mut intervals: BTreeMap<String, (Resource, Vec<(u32, u32)>)> = BTreeMap::new();
-    for (slot, of_slot) in plan.slots.iter().enumerate().filter(|(_, slot)| slot.kind == SlotKind::Transient) {
+    let mut intervals: BTreeMap<String, (Resource, Vec<(Handle<PlannedPass>, Until)>)> = BTreeMap::new();
+    for (slot, of_slot) in plan.slots.entries().filter(|(_, slot)| slot.kind == SlotKind::Transient) {
         let entry = intervals.entry(of_slot.resource.to_string()).or_insert((of_slot.resource, Vec::new()));
-        for port in plan.ports_in(slot as u32) {
-            let port = &plan.ports[port as usize];
+        for port in plan.ports_in(slot) {
+            let port = &plan.ports[port];
             match entry.1.last_mut() {
-                Some(last) if port.in_place => last.1 = port.lifetime.1,
-                _ => entry.1.push(port.lifetime),
+                Some(last) if port.in_place => last.1 = port.until,
+                _ => entry.1.push((port.pass.unwrap(), port.until)),
             }
         }
     }
-    let most = |intervals: &[(u32, u32)]| {
-        let alive = |at: u32| intervals.iter().filter(|(first, last)| *first <= at && at <= *last).count() as u32;
+    let most = |intervals: &[(Handle<PlannedPass>, Until)]| {
+        let is_alive = |first, until, at| first <= at && Until::Pass(at) <= until;
+        let alive = |at| intervals.iter().filter(|(first, until)| is_alive(*first, *until, at)).count() as u32;
         intervals.iter().map(|(first, _)| alive(*first)).max().unwrap_or(0)
     };
     intervals.into_iter().map(|(name, (resource, intervals))| (name, (most(&intervals), resource))).collect()
@@ -198,25 +201,25 @@ fn most_alive(plan: &Plan) -> BTreeMap<String, (u32, Resource)> {
 
 /// Lifetimes are from the pass that writes to the last that reads, or to the end.
 fn lifetimes(plan: &Plan) {
-    let mut last: Vec<u32> = plan.ports.iter().map(|port| port.pass.unwrap_or(0)).collect();
-    for pass in 0..plan.passes.len() as u32 {
-        for source in plan.sources(pass).iter().flatten() {
-            last[*source as usize] = pass;
+    let mut last: Table<PlannedPort, Option<Handle<PlannedPass>>> = plan.ports.iter().map(|port| port.pass).collect();
+    for position in plan.passes.handles() {
+        for source in plan.sources(position).iter().flatten() {
+            last[*source] = Some(position);
         }
     }
     for (port, last) in plan.ports.iter().zip(last) {
-        let last = if port.root || port.carried { plan.passes.len() as u32 } else { last };
-        assert_eq!(port.lifetime, (port.pass.unwrap_or(0), last));
+        assert_eq!(port.until, if port.root || port.carried { Until::End } else { Until::Pass(last.unwrap()) });
     }
 }
 
 fn disjoint(plan: &Plan) {
-    for slot in 0..plan.slots.len() as u32 {
-        let ports: Vec<u32> = plan.ports_in(slot).filter(|port| plan.ports[*port as usize].pass.is_some()).collect();
-        for pair in ports.windows(2) {
-            let (before, after) = (&plan.ports[pair[0] as usize], &plan.ports[pair[1] as usize]);
-            let in_place = after.in_place && before.lifetime.1 == after.lifetime.0;
-            assert!(in_place || before.lifetime.1 < after.lifetime.0, "two ports alive in one slot");
+    for slot in plan.slots.handles() {
+        let ports: Vec<PlannedPort> = plan.ports_in(slot).map(|port| plan.ports[port]).collect();
+        let written: Vec<PlannedPort> = ports.into_iter().filter(|port| port.pass.is_some()).collect();
+        for pair in written.windows(2) {
+            let (until, after) = (pair[0].until, Until::Pass(pair[1].pass.unwrap()));
+            let in_place = pair[1].in_place && until == after;
+            assert!(in_place || until < after, "two ports alive in one slot");
         }
     }
 }
@@ -235,12 +238,9 @@ fn bytes_add_up(plan: &Plan, alone: &Plan) {
 fn roots_of(graph: &Graph, roots: &Roots) -> Vec<PortRef> {
     let mut ports: Vec<PortRef> = graph.outputs.iter().map(|(_, port)| *port).collect();
     if *roots == Roots::All {
-        for pass in 0..graph.passes.node_count() as u32 {
-            let descriptor = graph.pass(pass).descriptor();
-            let written = descriptor.ports.iter().enumerate().filter(|(_, port)| port.role.is_output());
-            if graph.pass(pass).enabled {
-                ports.extend(written.map(|(port, _)| PortRef { pass, port: port as u32 }));
-            }
+        for (pass, node) in graph.passes.entries().filter(|(_, node)| node.enabled) {
+            let written = node.descriptor().ports.entries().filter(|(_, port)| port.role.is_output());
+            ports.extend(written.map(|(port, _)| PortRef { pass, port }));
         }
     }
     ports
@@ -296,8 +296,7 @@ proptest! {
         let svg = show::svg(&plan);
         prop_assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"));
         assert!(show::dot(&plan).ends_with("}\n"));
-        for pass in 0..graph.passes.node_count() as u32 {
-            let node = graph.pass(pass);
+        for node in &graph.passes {
             prop_assert!(explain(&plan, &node.name).is_ok());
             for port in &node.descriptor().ports {
                 assert!(explain(&plan, &format!("{}.{}", node.name, port.name)).is_ok());
@@ -312,7 +311,7 @@ fn a_wrong_plan_is_noticed() {
     let graph: Arc<Graph> = support::graph(support::CONTRACT);
     let mut wrong = plan(&graph, &PlanOptions::new(graph.size)).unwrap();
     let (lit, air) = (wrong.find("lit.radiance").unwrap(), wrong.find("air.radiance").unwrap());
-    wrong.ports[air as usize].slot = wrong.ports[lit as usize].slot;
+    wrong.ports[air].slot = wrong.ports[lit].slot;
     assert!(std::panic::catch_unwind(|| played(&wrong)).is_err());
 }
 
@@ -329,7 +328,11 @@ fn random_graphs_have_everything() {
         let plan = plan(&graph, &options).unwrap();
         let copies = plan.steps.iter().filter(|step| matches!(step, Step::Copy { .. })).count();
         let constants = plan.slots.iter().filter(|slot| matches!(slot.kind, SlotKind::Constant(_))).count();
-        let deepest = plan.ports.iter().map(|port| port.lifetime.1 - port.lifetime.0).max().unwrap_or(0);
+        let age = |port: &PlannedPort| {
+            let until = if let Until::Pass(last) = port.until { last.index() } else { plan.passes.len() };
+            until - port.pass.map_or(0, Handle::index)
+        };
+        let deepest = plan.ports.iter().map(age).max().unwrap_or(0);
         for (what, count) in [
             ("in place", plan.ports.iter().filter(|port| port.in_place).count()),
             ("copies", copies),

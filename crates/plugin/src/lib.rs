@@ -30,4 +30,4 @@ pub use search::{SearchPath, find_folders, shader_modules};
 
 // What a pass in Rust needs, under one roof.
 pub use tyndall_gpu::{GpuError, Kernel, Numbers, PortData, Program, Raster, RasterTargets, Recorder, Setup, wgpu};
-pub use tyndall_graph::{Resource, descriptor};
+pub use tyndall_graph::{Handle, Resource, Table, descriptor};

@@ -32,10 +32,10 @@ pub(crate) fn descriptor(
 ) -> PassDescriptor {
     let mut decoder = Decoder::new(source, out);
     let ports = pass.ports.iter().filter_map(|entry| port(&mut decoder, entry, linked)).collect();
-    let mut params: Vec<ParamDescriptor> =
+    let params: Vec<ParamDescriptor> =
         pass.params.iter().filter_map(|entry| param(&mut decoder, entry, linked)).collect();
     let presets = presets(&mut decoder, &pass.presets, &params);
-    params.splice(0..0, preset_param(&presets));
+    let params = preset_param(&presets).into_iter().chain(params).collect();
     let mut scene: Vec<String> = linked.resources.iter().map(|resource| resource.name.clone()).collect();
     scene.retain(|name| scene_names.contains(&name.as_str()));
     scene.sort();

@@ -19,8 +19,8 @@ fn set(names: &[&str]) -> BTreeSet<String> {
 
 /// How often each pass has run, by name.
 fn runs(executor: &Executor) -> Vec<(String, u64)> {
-    let names = (0..executor.counters().len() as u32).map(|pass| executor.plan().pass_name(pass).to_owned());
-    names.zip(executor.counters().iter().map(|counters| counters.runs)).collect()
+    let counters = executor.counters().entries();
+    counters.map(|(pass, counters)| (executor.plan().pass_name(pass).to_owned(), counters.runs)).collect()
 }
 
 #[test]

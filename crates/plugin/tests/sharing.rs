@@ -12,7 +12,7 @@ fn every_port_is_the_same_bit_by_bit() {
         options.roots = Roots::All;
         options.share = false;
     });
-    let ports: Vec<_> = all.ports.iter().enumerate().map(|(at, port)| (all.port_name(at as u32), port.port)).collect();
+    let ports: Vec<_> = all.ports.entries().map(|(planned, port)| (all.port_name(planned), port.port)).collect();
     assert!(ports.len() >= 9);
     let mut unshared = executor(&gpu, &registry, all);
     set_scene(&mut unshared, &scene, 0.0);
@@ -27,7 +27,7 @@ fn every_port_is_the_same_bit_by_bit() {
                 options.order = order;
             };
             let plan = planned(&registry, FOG, |_, options| change(options));
-            shared_slots += (0..plan.slots.len() as u32).filter(|slot| plan.ports_in(*slot).count() > 1).count();
+            shared_slots += plan.slots.handles().filter(|slot| plan.ports_in(*slot).count() > 1).count();
             let mut shared = executor(&gpu, &registry, plan);
             set_scene(&mut shared, &scene, 0.0);
             shared.poison(f32::NAN).unwrap();
@@ -46,8 +46,8 @@ fn what_others_have_overwritten_cannot_be_read() {
         let image = graph.find("image", tyndall_document::Place::Argument(String::new())).unwrap();
         options.roots = Roots::Ports(vec![image]);
     });
-    let overwritten = (0..plan.ports.len() as u32).find(|port| {
-        let slot = plan.ports[*port as usize].slot;
+    let overwritten = plan.ports.handles().find(|port| {
+        let slot = plan.ports[*port].slot;
         plan.ports_in(slot).last() != Some(*port)
     });
     let overwritten = overwritten.expect("something shares memory");

@@ -36,7 +36,7 @@ fn runs(mode: &str, passes: &[&str]) -> Vec<u64> {
         set_scene(&mut kept, scene, 0.0);
         kept.frame(FrameOptions::default()).unwrap();
     }
-    let index = |name: &str| (0..kept.counters().len()).find(|at| kept.plan().pass_name(*at as u32) == name).unwrap();
+    let index = |name: &str| kept.counters().handles().find(|at| kept.plan().pass_name(*at) == name).unwrap();
     passes.iter().map(|name| kept.counters()[index(name)].runs).collect()
 }
 

@@ -53,7 +53,7 @@ pub struct Loaded {
 impl Loaded {
     /// Warns where a switch is on whose work needs an optional input that nothing feeds.
     pub fn warn_of_needs(&self, registry: &Registry, out: &mut Diagnostics) {
-        for (index, pass) in (0..).zip(self.graph.passes.node_weights()).filter(|(_, pass)| pass.enabled) {
+        for (index, pass) in self.graph.passes.entries().filter(|(_, pass)| pass.enabled) {
             let descriptor = pass.descriptor();
             let Some(registered) = registry.pass(&descriptor.name) else { continue };
             for (param, setting) in descriptor.params.iter().zip(&pass.params) {
@@ -76,7 +76,7 @@ impl Loaded {
     /// Warns where a pass says that it does not do justice to something that the scene has.
     pub fn warn_of_limits(&self, registry: &Registry, out: &mut Diagnostics) {
         let Some(scene) = &self.scene else { return };
-        for pass in self.graph.passes.node_weights().filter(|pass| pass.enabled) {
+        for pass in self.graph.passes.iter().filter(|pass| pass.enabled) {
             let Some(registered) = registry.pass(&pass.descriptor().name) else { continue };
             for limit in registered.limits.iter().filter(|limit| has(scene, limit.feature)) {
                 let message = format!("pass `{}`: {}", pass.name, limit.text);
@@ -142,7 +142,7 @@ fn overrides(request: &Request, out: &mut Diagnostics) -> (Overrides, tyndall_sc
 
 /// A pass that reads the medium and not how its density falls with the height would be silently wrong.
 fn refuse_homogeneous(graph: &Graph, out: &mut Diagnostics) {
-    for pass in graph.passes.node_weights().filter(|pass| pass.enabled) {
+    for pass in graph.passes.iter().filter(|pass| pass.enabled) {
         let descriptor = pass.descriptor();
         let reads = |name: &str| descriptor.scene.iter().any(|read| read == name);
         if reads("medium") && !reads("height_fog") {
@@ -165,7 +165,7 @@ fn load_scene(
     out: &mut Diagnostics,
 ) -> Option<Option<Scene>> {
     let Some(path) = &graph.scene else {
-        let reader = graph.passes.node_weights().find(|pass| pass.enabled && !pass.descriptor().scene.is_empty());
+        let reader = graph.passes.iter().find(|pass| pass.enabled && !pass.descriptor().scene.is_empty());
         if let Some(pass) = reader {
             let message = format!("pass `{}` reads a scene, and neither the graph nor --scene names one", pass.name);
             let mistake = Diagnostic::error(NO_SCENE, graph.place(pass.span), message);

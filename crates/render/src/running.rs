@@ -68,7 +68,7 @@ impl<'a> Running<'a> {
                 plan.pass_name(pass),
                 self.executor.gpu().info.name
             );
-            let place = plan.graph.place(plan.graph.pass(plan.passes[pass as usize].index).span);
+            let place = plan.graph.place(plan.graph.pass(plan.passes[pass].pass).span);
             let hint = "Mesa's llvmpipe ends all loops of a pixel after 65,535 rounds: fewer steps, lights or triangles \
                         take fewer, and other drivers have no such limit";
             out.push(Diagnostic::warning(UNFINISHED, place, message).suggest(hint));

@@ -2,25 +2,27 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use tyndall_graph::{Plan, SlotKind};
+use tyndall_graph::{Handle, Plan, PlannedPass, PlannedPort, SlotKind, Table};
 
 use crate::outcome::{Check, Outcome, PortOutcome, Reach, State, Suspicion};
 
-/// What each pass of a plan was made from, in the run that is judged: ports, by the position of the pass. A port that was
+/// What each pass of a plan was made from, in the run that is judged: ports. A port that was
 /// given to a pass is not among them, and neither is what lies before it.
 pub(crate) struct Upstream {
     /// In the same frame.
-    ports: Vec<BTreeSet<u32>>,
+    ports: Table<PlannedPass, Ports>,
     /// In frames before.
-    remembered: Vec<BTreeSet<u32>>,
+    remembered: Table<PlannedPass, Ports>,
 }
+
+type Ports = BTreeSet<Handle<PlannedPort>>;
 
 impl Upstream {
     /// Where every pass ran.
     pub fn of(plan: &Plan) -> Self {
         let mut upstream = Self::nothing(plan);
-        for pass in 0..plan.passes.len() {
-            let (now, _) = sources(plan, pass as u32);
+        for pass in plan.passes.handles() {
+            let (now, _) = sources(plan, pass);
             upstream.ports[pass] = with_before(plan, &upstream.ports, &now);
         }
         upstream.remembered = remembered(plan, &upstream.ports);
@@ -29,51 +31,51 @@ impl Upstream {
 
     /// Where no pass ran for another.
     pub fn nothing(plan: &Plan) -> Self {
-        let nothing = vec![BTreeSet::new(); plan.passes.len()];
+        let nothing = plan.passes.column(Ports::new());
         Self { ports: nothing.clone(), remembered: nothing }
     }
 
     /// A pass ran, and these of its inputs were rendered for it, by passes that all ran; others were given.
-    pub fn ran_with(&mut self, plan: &Plan, all: &Self, pass: u32, rendered: &[u32]) {
+    pub fn ran_with(&mut self, plan: &Plan, all: &Self, pass: Handle<PlannedPass>, rendered: &[Handle<PlannedPort>]) {
         let before = with_before(plan, &all.ports, rendered);
-        self.ports[pass as usize].extend(before);
+        self.ports[pass].extend(before);
     }
 
     /// The ports that the pass at this position was made from, in the same frame.
-    pub fn ports(&self, pass: usize) -> &BTreeSet<u32> {
+    pub fn ports(&self, pass: Handle<PlannedPass>) -> &Ports {
         &self.ports[pass]
     }
 
     /// The positions of their passes.
-    pub fn passes<'a>(&'a self, plan: &'a Plan, pass: usize) -> impl Iterator<Item = usize> + 'a {
-        self.ports[pass].iter().filter_map(|port| Some(plan.ports[*port as usize].pass? as usize))
+    pub fn passes(&self, plan: &Plan, pass: Handle<PlannedPass>) -> impl Iterator<Item = Handle<PlannedPass>> {
+        self.ports[pass].iter().filter_map(|port| plan.ports[*port].pass)
     }
 }
 
 /// What a pass reads of this frame, and of the frame before.
-fn sources(plan: &Plan, pass: u32) -> (Vec<u32>, Vec<u32>) {
-    let kinds = plan.bindings(pass).iter().flatten().map(|slot| plan.slots[*slot as usize].kind);
+fn sources(plan: &Plan, pass: Handle<PlannedPass>) -> (Vec<Handle<PlannedPort>>, Vec<Handle<PlannedPort>>) {
+    let kinds = plan.bindings(pass).iter().flatten().map(|slot| plan.slots[*slot].kind);
     let before = kinds.filter_map(|kind| if let SlotKind::History { of, .. } = kind { Some(of) } else { None });
     (plan.sources(pass).iter().flatten().copied().collect(), before.collect())
 }
 
 /// Ports, and what their passes were made from.
-fn with_before(plan: &Plan, made_from: &[BTreeSet<u32>], ports: &[u32]) -> BTreeSet<u32> {
-    let producers = ports.iter().filter_map(|port| plan.ports[*port as usize].pass);
-    let before = producers.flat_map(|pass| made_from[pass as usize].iter());
+fn with_before(plan: &Plan, made_from: &Table<PlannedPass, Ports>, ports: &[Handle<PlannedPort>]) -> Ports {
+    let producers = ports.iter().filter_map(|port| plan.ports[*port].pass);
+    let before = producers.flat_map(|pass| made_from[pass].iter());
     before.chain(ports).copied().collect()
 }
 
 /// What frames before bring into each pass, through all that it reads.
-fn remembered(plan: &Plan, ports: &[BTreeSet<u32>]) -> Vec<BTreeSet<u32>> {
-    let mut found: Vec<BTreeSet<u32>> = vec![BTreeSet::new(); ports.len()];
+fn remembered(plan: &Plan, ports: &Table<PlannedPass, Ports>) -> Table<PlannedPass, Ports> {
+    let mut found = ports.column(Ports::new());
     loop {
         let mut grown = false;
-        for pass in 0..ports.len() {
-            let (_, before) = sources(plan, pass as u32);
+        for pass in ports.handles() {
+            let (_, before) = sources(plan, pass);
             let mut all = with_before(plan, ports, &before);
-            let read = ports[pass].iter().chain(&before).filter_map(|port| plan.ports[*port as usize].pass);
-            all.extend(read.flat_map(|pass| found[pass as usize].iter().copied().collect::<Vec<_>>()));
+            let read = ports[pass].iter().chain(&before).filter_map(|port| plan.ports[*port].pass);
+            all.extend(read.flat_map(|pass| found[pass].iter().copied().collect::<Vec<_>>()));
             grown |= !all.is_subset(&found[pass]);
             found[pass].extend(all);
         }
@@ -90,7 +92,7 @@ fn remembered(plan: &Plan, ports: &[BTreeSet<u32>]) -> Vec<BTreeSet<u32>> {
 /// A port that no check holds in every number may be wrong without a word, and so may be a port that another is held
 /// against. Where a pass that is named depends on such, the outcome says so.
 pub(crate) fn attribute(plan: &Plan, upstream: &Upstream, outcome: &mut Outcome) {
-    let numbers = (0..plan.ports.len() as u32).map(|port| (plan.port_name(port), port)).collect();
+    let numbers = plan.ports.handles().map(|port| (plan.port_name(port), port)).collect();
     let mut blame = Blame { plan, upstream, numbers, failing: BTreeSet::new(), earlier: BTreeSet::new() };
     let frames = outcome.ports.iter().map(|port| port.frame).chain(outcome.relations.iter().map(|each| each.frame));
     let frames: BTreeSet<u32> = frames.collect();
@@ -104,11 +106,11 @@ pub(crate) fn attribute(plan: &Plan, upstream: &Upstream, outcome: &mut Outcome)
 struct Blame<'a> {
     plan: &'a Plan,
     upstream: &'a Upstream,
-    numbers: BTreeMap<String, u32>,
+    numbers: BTreeMap<String, Handle<PlannedPort>>,
     /// In the frame that is judged.
-    failing: BTreeSet<u32>,
+    failing: Ports,
     /// In frames before.
-    earlier: BTreeSet<u32>,
+    earlier: Ports,
 }
 
 impl Blame<'_> {
@@ -120,11 +122,12 @@ impl Blame<'_> {
         relations().for_each(|relation| self.fails(&relation.port));
         // Of a pass that fails in one port, those that nothing holds may be as wrong.
         let held: BTreeSet<&str> = of_frame().filter(|port| is_held(port)).map(|port| port.name.as_str()).collect();
-        let wrong: BTreeSet<Option<u32>> = self.failing.iter().map(|port| self.pass_of(*port)).collect();
+        let wrong: BTreeSet<Option<Handle<PlannedPass>>> =
+            self.failing.iter().map(|port| self.pass_of(*port)).collect();
         let unheld = self.numbers.iter().filter(|(name, port)| {
             !held.contains(name.as_str()) && self.pass_of(**port).is_some() && wrong.contains(&self.pass_of(**port))
         });
-        let unheld: Vec<u32> = unheld.map(|(_, port)| *port).collect();
+        let unheld: Vec<Handle<PlannedPort>> = unheld.map(|(_, port)| *port).collect();
         self.failing.extend(unheld);
         // Only now is it known what a check about other ports falls with; a port that nothing excuses fails by itself.
         for port in of_frame() {
@@ -151,13 +154,13 @@ impl Blame<'_> {
         self.failing.extend(self.numbers.get(port));
     }
 
-    fn pass_of(&self, port: u32) -> Option<u32> {
-        self.plan.ports[port as usize].pass
+    fn pass_of(&self, port: Handle<PlannedPort>) -> Option<Handle<PlannedPass>> {
+        self.plan.ports[port].pass
     }
 
     /// The position of the pass that writes a port.
-    fn position(&self, port: &str) -> Option<usize> {
-        Some(self.pass_of(*self.numbers.get(port)?)? as usize)
+    fn position(&self, port: &str) -> Option<Handle<PlannedPass>> {
+        self.pass_of(*self.numbers.get(port)?)
     }
 
     /// Whether something that a port was made from fails, or one of these others, or something that those were made from.

@@ -111,8 +111,8 @@ fn refused(ready: &Ready, outcome: &Outcome) -> BTreeMap<String, String> {
         .map(|pass| (pass, "something else does not hold of its pass".to_owned()))
         .collect();
     let upstream = Upstream::of(plan);
-    for position in 0..plan.passes.len() {
-        let name = |pass: usize| plan.pass_name(pass as u32);
+    for position in plan.passes.handles() {
+        let name = |position| plan.pass_name(position);
         let before = upstream.passes(plan, position).map(name).find(|pass| refused.contains_key(*pass));
         if let Some(before) = before.map(str::to_owned) {
             let why = format!("it is made from what `{before}` writes, of which something else does not hold");
@@ -120,7 +120,7 @@ fn refused(ready: &Ready, outcome: &Outcome) -> BTreeMap<String, String> {
         }
     }
     if !outcome.robustness.is_empty() {
-        let all = (0..plan.passes.len() as u32).map(|pass| plan.pass_name(pass).to_owned());
+        let all = plan.passes.handles().map(|position| plan.pass_name(position).to_owned());
         refused
             .extend(all.map(|pass| (pass, "not every port comes out the same when it is rendered again".to_owned())));
     }

@@ -1,7 +1,7 @@
 //! What a port was made from, as numbers that change when it does.
 
 use tyndall_graph::descriptor::ParamValue;
-use tyndall_graph::{ParamSetting, Plan, Resource, SlotKind};
+use tyndall_graph::{Handle, ParamSetting, Plan, PlannedPass, Resource, SlotKind, Table};
 use tyndall_plugin::Registry;
 use tyndall_scene::Encoded;
 
@@ -53,13 +53,16 @@ impl Print {
     }
 }
 
-/// The fingerprints of a plan's passes by position.
-pub(crate) fn fingerprints(plan: &Plan, registry: &Registry, scene: Option<&Encoded>, frame: u32) -> Vec<Print> {
+/// What every pass of a plan was made from.
+pub(crate) type Prints = Table<PlannedPass, Print>;
+
+/// The fingerprints of a plan's passes.
+pub(crate) fn fingerprints(plan: &Plan, registry: &Registry, scene: Option<&Encoded>, frame: u32) -> Prints {
     // What is remembered was made by passes that stand later, and from what they remember: first each by itself.
-    let mut found: Vec<Print> = Vec::new();
+    let mut found = Prints::new();
     for _ in 0..2 {
         let before = std::mem::take(&mut found);
-        for pass in 0..plan.passes.len() as u32 {
+        for pass in plan.passes.handles() {
             found.push(of_pass(plan, registry, (scene, frame), pass, &found, &before));
         }
         if !found.iter().any(|print| print.remembers) {
@@ -73,9 +76,9 @@ fn of_pass(
     plan: &Plan,
     registry: &Registry,
     (scene, frame): (Option<&Encoded>, u32),
-    pass: u32,
-    upstream: &[Print],
-    before: &[Print],
+    pass: Handle<PlannedPass>,
+    upstream: &Prints,
+    before: &Prints,
 ) -> Print {
     let descriptor = plan.descriptor(pass);
     let (mut remembers, mut has_side_effect) = (false, descriptor.side_effect);
@@ -86,15 +89,15 @@ fn of_pass(
         digests.graph.text(&port.name);
     }
     for binding in plan.bindings(pass) {
-        let slot = binding.map(|slot| &plan.slots[slot as usize]);
+        let slot = binding.map(|slot| &plan.slots[slot]);
         digests.graph.text(&slot.map_or(String::new(), |slot| resource(&slot.resource)));
         let initial = slot.and_then(|slot| slot.initial());
         initial.into_iter().flatten().for_each(|number| digests.graph.number(u64::from(number.to_bits())));
         if let Some(SlotKind::History { of, .. }) = slot.map(|slot| slot.kind) {
             remembers = true;
-            let port = &plan.ports[of as usize];
-            digests.graph.number(u64::from(port.port.port));
-            if let Some(print) = port.pass.and_then(|pass| before.get(pass as usize)) {
+            let port = &plan.ports[of];
+            digests.graph.number(port.port.port.index() as u64);
+            if let Some(print) = port.pass.and_then(|pass| before.get(pass)) {
                 digests.add(print.made_from);
             }
         }
@@ -116,7 +119,7 @@ fn of_pass(
         digests.scene.bytes(scene.map_or(&[], |scene| scene.bytes(name)));
     }
     for source in plan.sources(pass) {
-        let Some(port) = source.map(|source| &plan.ports[source as usize]) else {
+        let Some(port) = source.map(|source| &plan.ports[source]) else {
             digests.graph.text("nothing is fed");
             continue;
         };
@@ -124,10 +127,10 @@ fn of_pass(
             digests.graph.text("a constant is fed");
             continue;
         };
-        let print = &upstream[producer as usize];
+        let print = &upstream[producer];
         remembers |= print.remembers;
         has_side_effect |= print.has_side_effect;
-        digests.graph.number(u64::from(port.port.port));
+        digests.graph.number(port.port.port.index() as u64);
         digests.add(print.made_from);
     }
     Print { made_from: digests.finish(), remembers, has_side_effect }

@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use tyndall_gpu::PortData;
-use tyndall_graph::PortRef;
-use tyndall_graph::descriptor::Role;
+use tyndall_graph::{Handle, Pass, PlannedPort, PortRef};
 use tyndall_render::Error;
 
 use crate::adapter::AdapterClass;
@@ -24,13 +23,13 @@ use crate::session::Session;
 /// there are goldens to feed it: where an input has none, the passes before run along, and what they do wrong is theirs.
 pub(crate) fn run(session: &mut Session, ready: &Ready, options: &Options, outcome: &mut Outcome) -> Result<(), Error> {
     let chosen = ready.tapped.iter().filter(|tapped| ready.chosen.contains(&tapped.name));
-    let mut passes: Vec<u32> = chosen.map(|tapped| tapped.port.pass).collect();
+    let mut passes: Vec<Handle<Pass>> = chosen.map(|tapped| tapped.port.pass).collect();
     passes.dedup();
     let (all, mut upstream) = (Upstream::of(&ready.plan), Upstream::nothing(&ready.plan));
     for pass in passes {
         for frame in ready.file.frames.iter().filter(|frame| options.looks_at(**frame)) {
             let graph_pass = ready.loaded.graph.pass(pass);
-            if *frame > 0 && graph_pass.descriptor().ports.iter().any(|port| matches!(port.role, Role::History(_))) {
+            if *frame > 0 && graph_pass.descriptor().remembers() {
                 let name = &graph_pass.name;
                 outcome.left_out.push(format!("`{name}` in frame {frame}: it reads what was in the frame before"));
                 continue;
@@ -40,7 +39,8 @@ pub(crate) fn run(session: &mut Session, ready: &Ready, options: &Options, outco
                     if let Some(position) = ready.plan.position(pass) {
                         let fed = ready.inputs(pass).into_iter().map(|(_, port)| port);
                         let rendered = fed.filter(|port| !inputs.contains_key(port));
-                        let rendered: Vec<u32> = rendered.filter_map(|port| ready.plan.planned(port)).collect();
+                        let rendered: Vec<Handle<PlannedPort>> =
+                            rendered.filter_map(|port| ready.plan.planned(port)).collect();
                         upstream.ran_with(&ready.plan, &all, position, &rendered);
                     }
                     run_pass(session, ready, (pass, *frame), &inputs, options, outcome)?;
@@ -62,7 +62,7 @@ pub(crate) fn run(session: &mut Session, ready: &Ready, options: &Options, outco
 fn run_pass(
     session: &mut Session,
     ready: &Ready,
-    (pass, frame): (u32, u32),
+    (pass, frame): (Handle<Pass>, u32),
     inputs: &BTreeMap<PortRef, Arc<PortData>>,
     options: &Options,
     outcome: &mut Outcome,
@@ -104,7 +104,7 @@ fn given(ready: &Ready, inputs: &BTreeMap<PortRef, Arc<PortData>>, name: &str) -
 }
 
 /// The inputs of a pass, from goldens.
-fn inputs(ready: &Ready, pass: u32, frame: u32) -> Result<BTreeMap<PortRef, Arc<PortData>>, String> {
+fn inputs(ready: &Ready, pass: Handle<Pass>, frame: u32) -> Result<BTreeMap<PortRef, Arc<PortData>>, String> {
     let mut inputs = BTreeMap::new();
     for (_, port) in ready.inputs(pass) {
         if let Some(data) = from_golden(ready, port, frame)? {
@@ -125,7 +125,7 @@ fn from_golden(ready: &Ready, port: PortRef, frame: u32) -> Result<Option<PortDa
     let resource = *ready.plan.resource(planned);
     let scalar = resource.scalar(ready.plan.port_descriptor(planned));
     let blank = PortData { resource, scalar, bytes: vec![0; resource.bytes() as usize] };
-    let like = Picture::of(&blank, ready.plan.ports[planned as usize].class);
+    let like = Picture::of(&blank, ready.plan.ports[planned].class);
     if !like.fits_golden() {
         return Ok(None);
     }

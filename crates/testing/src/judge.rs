@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use tyndall_graph::descriptor::ParamValue;
-use tyndall_graph::{ParamSetting, Plan, PortRef};
+use tyndall_graph::{Handle, ParamSetting, Plan, PlannedPort, PortRef};
 use tyndall_image::Image;
 use tyndall_plugin::{ReferenceInput, Registry};
 use tyndall_render::Loaded;
@@ -34,11 +34,11 @@ impl Judge<'_> {
     /// were made from one that fails are left out: nothing that they could say would change whose fault it is.
     pub fn frame(&self, rendered: &Rendered) -> Vec<PortOutcome> {
         let (plan, upstream) = (&self.ready.plan, Upstream::of(&self.ready.plan));
-        let mut failing: BTreeSet<u32> = BTreeSet::new(); // ports
+        let mut failing: BTreeSet<Handle<PlannedPort>> = BTreeSet::new();
         let mut outcomes = Vec::with_capacity(self.ready.tapped.len());
         for tapped in &self.ready.tapped {
             let position = plan.position(tapped.port.pass);
-            let made_from = position.map(|position| upstream.ports(position as usize));
+            let made_from = position.map(|position| upstream.ports(position));
             let inherits = || made_from.is_some_and(|ports| !ports.is_disjoint(&failing));
             if self.options.until_failure && inherits() {
                 continue;
@@ -170,7 +170,7 @@ impl Computing<'_> {
             .ports
             .iter()
             .zip(plan.bindings(position))
-            .filter_map(|(port, slot)| Some((port.name.as_str(), plan.slots[(*slot)? as usize].resource)));
+            .filter_map(|(port, slot)| Some((port.name.as_str(), plan.slots[(*slot)?].resource)));
         let frame = rendered.frame;
         let value = |setting: &ParamSetting| match setting {
             ParamSetting::Value(value) => value.clone(),

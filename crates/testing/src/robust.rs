@@ -43,7 +43,8 @@ pub(crate) fn run(
 /// The tapped ports that no other pass reads: what is left when every other port may share its memory.
 fn final_ports(ready: &Ready, own: &[Rendered]) -> Vec<PortRef> {
     let plan = &ready.plan;
-    let is_read = |port: u32| (0..plan.passes.len() as u32).any(|pass| plan.sources(pass).contains(&Some(port)));
+    let is_read_by = |pass, port| plan.sources(pass).iter().any(|source| *source == Some(port));
+    let is_read = |port| plan.passes.handles().any(|pass| is_read_by(pass, port));
     let rendered = own.iter().flat_map(|rendered| rendered.ports.keys());
     let mut ports: Vec<PortRef> =
         rendered.filter(|port| plan.planned(**port).is_some_and(|planned| !is_read(planned))).copied().collect();

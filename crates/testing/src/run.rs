@@ -6,14 +6,15 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use tyndall_document::Diagnostics;
-use tyndall_graph::{Graph, Plan, PortRef, Roots};
+use tyndall_graph::descriptor::PortDescriptor;
+use tyndall_graph::{Graph, Handle, Pass, Plan, PlannedPass, PlannedPort, PortRef, Roots};
 use tyndall_plugin::Registry;
 use tyndall_render::{Error, Loaded, load};
 
 use crate::adapter::AdapterClass;
 use crate::blame::{Upstream, attribute};
 use crate::file::{Change, Expectation, Property, Tapped, TestFile, check, check_run, matches, read};
-use crate::fingerprint::Print;
+use crate::fingerprint::Prints;
 use crate::golden::{self, Records};
 use crate::judge::{Computing, Judge};
 use crate::metric::Judgement;
@@ -221,7 +222,7 @@ impl Session {
             }
             let unheld = |port: PortRef| -> Vec<String> {
                 let position = ready.plan.position(port.pass);
-                let made_from = position.map(|position| upstream.ports(position as usize)).into_iter().flatten();
+                let made_from = position.map(|position| upstream.ports(position)).into_iter().flatten();
                 let names = made_from.filter(|port| changed.contains(port)).map(|port| ready.plan.port_name(*port));
                 let held = |name: &String| {
                     let of_port = |each: &&Expectation| each.port == *name;
@@ -265,21 +266,20 @@ impl Session {
 
 impl Session {
     /// Ports of the test's own plan that another run makes of something else.
-    fn made_from_other(&self, ready: &Ready, other: &Loaded, plan: &Plan) -> BTreeSet<u32> {
+    fn made_from_other(&self, ready: &Ready, other: &Loaded, plan: &Plan) -> BTreeSet<Handle<PlannedPort>> {
         let frame = ready.file.frames.last().copied().unwrap_or_default();
         let own = self.prints(&ready.loaded, &ready.registry, &ready.plan, frame);
         let others = self.prints(other, &ready.registry, plan, frame);
-        let is_same = |port: &u32| {
-            let print = |plan: &Plan, prints: &[Print], port: u32| {
-                Some(prints[plan.ports[port as usize].pass? as usize].made_from)
+        let is_same = |port: &Handle<PlannedPort>| {
+            let print = |plan: &Plan, prints: &Prints, port: Handle<PlannedPort>| {
+                Some(prints[plan.ports[port].pass?].made_from)
             };
-            let in_other = plan.planned(ready.plan.ports[*port as usize].port);
+            let in_other = plan.planned(ready.plan.ports[*port].port);
             let print_there = in_other.and_then(|port| print(plan, &others, port));
             print_there.is_some() && print_there == print(&ready.plan, &own, *port)
         };
-        (0..ready.plan.ports.len() as u32)
-            .filter(|port| ready.plan.ports[*port as usize].pass.is_some() && !is_same(port))
-            .collect()
+        let ports = ready.plan.ports.entries().filter(|(_, port)| port.pass.is_some());
+        ports.map(|(port, _)| port).filter(|port| !is_same(port)).collect()
     }
 }
 
@@ -305,8 +305,8 @@ impl Ready {
         ports.into_iter().collect()
     }
 
-    /// What feeds a pass of the graph: index of the input, and the port.
-    pub fn inputs(&self, pass: u32) -> Vec<(usize, PortRef)> {
+    /// What feeds a pass of the graph: the input, and the port.
+    pub fn inputs(&self, pass: Handle<Pass>) -> Vec<(Handle<PortDescriptor>, PortRef)> {
         inputs_of(&self.plan, pass)
     }
 
@@ -330,11 +330,11 @@ impl Ready {
     }
 }
 
-/// What feeds a pass of a plan: index of the input, and the port.
-pub(crate) fn inputs_of(plan: &Plan, pass: u32) -> Vec<(usize, PortRef)> {
+/// What feeds a pass of a plan: the input, and the port.
+pub(crate) fn inputs_of(plan: &Plan, pass: Handle<Pass>) -> Vec<(Handle<PortDescriptor>, PortRef)> {
     let Some(position) = plan.position(pass) else { return Vec::new() };
-    let sources = plan.sources(position).iter().enumerate();
-    sources.filter_map(|(index, source)| Some((index, plan.ports[(*source)? as usize].port))).collect()
+    let sources = plan.sources(position).entries();
+    sources.filter_map(|(input, source)| Some((input, plan.ports[(*source)?].port))).collect()
 }
 
 /// These ports, and all that they were made from and are held against.
@@ -345,8 +345,8 @@ fn needed(graph: &Graph, plan: &Plan, chosen: &[&Tapped]) -> BTreeSet<PortRef> {
     let mut needed = BTreeSet::new();
     for port in ports {
         needed.insert(port);
-        let before = plan.position(port.pass).map(|position| upstream.ports(position as usize));
-        needed.extend(before.into_iter().flatten().map(|port| plan.ports[*port as usize].port));
+        let before = plan.position(port.pass).map(|position| upstream.ports(position));
+        needed.extend(before.into_iter().flatten().map(|port| plan.ports[*port].port));
     }
     needed
 }
@@ -368,7 +368,7 @@ pub(crate) fn claimed(ready: &Ready) -> BTreeSet<String> {
     let all = check(&ready.file, &ready.loaded.graph, &|_| true, &mut ignored);
     let golden = all.iter().filter(|tapped| tapped.golden.is_some());
     let names = golden.flat_map(|tapped| {
-        let class = ready.plan.planned(tapped.port).map(|port| ready.plan.ports[port as usize].class);
+        let class = ready.plan.planned(tapped.port).map(|port| ready.plan.ports[port].class);
         let name = move |frame: &u32| Some(golden::file_name(&ready.key(&tapped.name, *frame), class?));
         ready.file.frames.iter().filter_map(name)
     });
@@ -377,17 +377,17 @@ pub(crate) fn claimed(ready: &Ready) -> BTreeSet<String> {
 
 /// The passes of a plan, in order.
 fn passes(plan: &Plan) -> Vec<PassOutcome> {
-    let reads = |pass: u32| {
+    let reads = |pass| {
         let sources = plan.sources(pass).iter().flatten();
-        let from: BTreeSet<u32> = sources.filter_map(|source| plan.ports[*source as usize].pass).collect();
+        let from: BTreeSet<Handle<PlannedPass>> = sources.filter_map(|source| plan.ports[*source].pass).collect();
         from.into_iter().map(|pass| plan.pass_name(pass).to_owned()).collect()
     };
-    let pass = |pass: u32| PassOutcome {
+    let pass = |pass| PassOutcome {
         name: plan.pass_name(pass).to_owned(),
         kind: plan.descriptor(pass).name.clone(),
         reads: reads(pass),
         bytes: plan.outputs_of(pass).map(|port| plan.resource(port).bytes()).sum(),
         microseconds: None,
     };
-    (0..plan.passes.len() as u32).map(pass).collect()
+    plan.passes.handles().map(pass).collect()
 }

@@ -7,14 +7,14 @@ use std::time::{Duration, Instant};
 
 use tyndall_document::Diagnostics;
 use tyndall_gpu::{Executor, FRAMES_PER_SECOND, FrameOptions, Gpu, PipelineCache, PortData, Timing};
-use tyndall_graph::descriptor::{Format, Role};
-use tyndall_graph::{Graph, Order, Plan, PlanOptions, PortRef, Resource, Roots};
+use tyndall_graph::descriptor::{Format, PortDescriptor};
+use tyndall_graph::{Graph, Handle, Order, Plan, PlanOptions, PlannedPort, PortRef, Resource, Roots};
 use tyndall_plugin::{Plugin, Registry, SearchPath};
 use tyndall_render::{Error, Loaded, Running};
 use tyndall_scene::Encoded;
 
 use crate::answers::Answers;
-use crate::fingerprint::{Fingerprint, Print, fingerprints};
+use crate::fingerprint::{Fingerprint, Prints, fingerprints};
 use crate::picture::Picture;
 use crate::substitute::Substitute;
 use crate::untapped::written;
@@ -46,7 +46,7 @@ pub struct Session {
 }
 
 /// What a port was made from, which port of the pass it is, and of one that depends on frames before the frame.
-pub(crate) type ResultKey = (Fingerprint, u32, Option<u32>);
+pub(crate) type ResultKey = (Fingerprint, Handle<PortDescriptor>, Option<u32>);
 
 /// Results that are held at most, bytes: 1 GiB. Beyond it all are let go, and sharing begins anew.
 const MOST_HELD: usize = 1 << 30;
@@ -116,7 +116,7 @@ pub struct Rendered {
 impl Rendered {
     /// A port as a picture.
     pub fn picture(&self, plan: &Plan, port: PortRef) -> Option<Picture> {
-        let class = plan.ports[plan.planned(port)? as usize].class;
+        let class = plan.ports[plan.planned(port)?].class;
         Some(Picture::of(self.ports.get(&port)?, class))
     }
 }
@@ -233,8 +233,7 @@ impl Session {
     ) -> Result<Vec<Rendered>, Error> {
         let start = Instant::now();
         let plan = Self::plan(&loaded.graph, Roots::Ports(ports.to_vec()), variation)?;
-        let remembers = (0..plan.passes.len() as u32)
-            .any(|pass| plan.descriptor(pass).ports.iter().any(|port| matches!(port.role, Role::History(_))));
+        let remembers = plan.passes.handles().any(|pass| plan.descriptor(pass).remembers());
         let rendered = if remembers || !variation.reuse {
             self.render_whole(loaded, registry, plan, ports, frames, (variation, remembers))
         } else {
@@ -279,7 +278,7 @@ impl Session {
         Ok(rendered)
     }
 
-    pub(crate) fn prints(&self, loaded: &Loaded, registry: &Registry, plan: &Plan, frame: u32) -> Vec<Print> {
+    pub(crate) fn prints(&self, loaded: &Loaded, registry: &Registry, plan: &Plan, frame: u32) -> Prints {
         let encoded = encode(loaded, plan, frame);
         fingerprints(plan, registry, encoded.as_ref(), frame)
     }
@@ -333,7 +332,7 @@ impl Session {
     }
 
     /// The fingerprints of the passes that an executor has run, and what each took.
-    fn ran(&mut self, executor: &Executor, prints: &[Print]) -> Vec<Fingerprint> {
+    fn ran(&mut self, executor: &Executor, prints: &Prints) -> Vec<Fingerprint> {
         let ran = executor.counters().iter().zip(prints).filter(|(counters, _)| counters.runs > 0);
         for (counters, print) in ran.clone() {
             let took = Duration::from_secs_f64(counters.alone_us / 1e6);
@@ -343,13 +342,13 @@ impl Session {
     }
 
     /// Counts the passes of a plan that have not run, as they had before.
-    fn spare(&mut self, plan: &Plan, prints: &[Print], ran: &[Fingerprint]) {
+    fn spare(&mut self, plan: &Plan, prints: &Prints, ran: &[Fingerprint]) {
         self.saved.spared += plan.passes.len() - ran.len();
         let spared = prints.iter().map(|print| &print.made_from).filter(|print| !ran.contains(print));
         self.saved.spared_time += spared.filter_map(|print| self.costs.get(print)).sum::<Duration>();
     }
 
-    fn keep_or_compare(&mut self, loaded: &Loaded, plan: &Plan, rendered: Option<&Rendered>, prints: &[Print]) {
+    fn keep_or_compare(&mut self, loaded: &Loaded, plan: &Plan, rendered: Option<&Rendered>, prints: &Prints) {
         let Some(rendered) = rendered else { return };
         if self.substitute.is_some() {
             return self.compare(loaded, plan, rendered);
@@ -379,8 +378,8 @@ impl Session {
     }
 
     /// Gives every result that is known from before, where a device takes it.
-    fn give_known(&self, executor: &mut Executor, prints: &[Print]) -> Result<(), Error> {
-        for port in 0..executor.plan().ports.len() as u32 {
+    fn give_known(&self, executor: &mut Executor, prints: &Prints) -> Result<(), Error> {
+        for port in executor.plan().ports.handles() {
             let known = key(executor.plan(), prints, port).and_then(|key| self.known(&key));
             if let Some(data) = known.filter(|_| can_be_given(executor.plan().resource(port))) {
                 executor.give(port, &data.bytes)?;
@@ -410,12 +409,12 @@ impl Session {
     pub fn times(&mut self, loaded: &Loaded, registry: &Registry, plan: &Plan) -> Result<Vec<Option<f64>>, Error> {
         let start = Instant::now();
         let all = Self::plan(&loaded.graph, Roots::Ports(written(plan)), Variation::PLAIN)?;
-        let (passes, prints) = (0..all.passes.len(), self.prints(loaded, registry, &all, 0));
+        let (passes, prints) = (all.passes.handles(), self.prints(loaded, registry, &all, 0));
         let mut running = Running::new(&self.gpu, all, loaded.scene.as_ref(), registry, &mut self.cache)?;
         self.give_known(&mut running.executor, &prints)?;
         running.frame(FrameOptions::default())?;
-        let time = |pass: usize| {
-            running.executor.forget(pass as u32);
+        let time = |pass| {
+            running.executor.forget(pass);
             let options = FrameOptions { timing: Timing::Pass(pass), ..FrameOptions::default() };
             Ok(running.frame(options)?.gpu_us)
         };
@@ -448,30 +447,30 @@ impl Session {
         running.frame(FrameOptions { frame, ..FrameOptions::default() })?;
         running.warn_of_unfinished(&mut self.unfinished)?;
         // What was given was made from nothing that is known here.
-        let rendered = read_all(&running.executor, ports, frame, &[]);
+        let rendered = read_all(&running.executor, ports, frame, &Prints::new());
         self.saved.rendering += start.elapsed();
         rendered
     }
 }
 
 /// What a result is known by, where it can be shared.
-fn key(plan: &Plan, prints: &[Print], port: u32) -> Option<ResultKey> {
-    let planned = &plan.ports[port as usize];
-    Some((prints[planned.pass? as usize].shared()?, planned.port.port, None))
+fn key(plan: &Plan, prints: &Prints, port: Handle<PlannedPort>) -> Option<ResultKey> {
+    let planned = &plan.ports[port];
+    Some((prints[planned.pass?].shared()?, planned.port.port, None))
 }
 
 /// What a result is known by, also where it depends on frames before this one.
-fn result_key(plan: &Plan, prints: &[Print], port: u32, frame: u32) -> Option<ResultKey> {
-    let planned = &plan.ports[port as usize];
-    let print = &prints[planned.pass? as usize];
+fn result_key(plan: &Plan, prints: &Prints, port: Handle<PlannedPort>, frame: u32) -> Option<ResultKey> {
+    let planned = &plan.ports[port];
+    let print = &prints[planned.pass?];
     Some((print.made_from, planned.port.port, print.remembers.then_some(frame)))
 }
 
-fn made_from(plan: &Plan, prints: &[Print], port: u32) -> Option<Fingerprint> {
-    Some(prints.get(plan.ports[port as usize].pass? as usize)?.made_from)
+fn made_from(plan: &Plan, prints: &Prints, port: Handle<PlannedPort>) -> Option<Fingerprint> {
+    Some(prints.get(plan.ports[port].pass?)?.made_from)
 }
 
-fn read_all(executor: &Executor, ports: &[PortRef], frame: u32, prints: &[Print]) -> Result<Rendered, Error> {
+fn read_all(executor: &Executor, ports: &[PortRef], frame: u32, prints: &Prints) -> Result<Rendered, Error> {
     let mut rendered = Rendered { frame, ports: BTreeMap::new(), made_from: BTreeMap::new() };
     for port in ports {
         let Some(planned) = executor.plan().planned(*port) else { continue };

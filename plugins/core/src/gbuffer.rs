@@ -7,7 +7,7 @@ use tyndall_plugin::descriptor::{
     Class, Dimension, Disabled, Format, PassDescriptor, PortDescriptor, PortKind, Role, SizeRule,
 };
 use tyndall_plugin::{
-    GpuError, Kernel, Program, Raster, RasterTargets, Recorder, Resource, RustPass, Setup, Shaders, wgpu,
+    GpuError, Kernel, Program, Raster, RasterTargets, Recorder, Resource, RustPass, Setup, Shaders, Table, wgpu,
 };
 
 /// The pass.
@@ -27,7 +27,7 @@ fn descriptor() -> PassDescriptor {
                 nothing anti-aliased, no near or far plane."
                 .to_owned(),
         source: "Burns and Hunt 2013 (visibility buffer); Möller and Trumbore 1997 (ray and triangle)".to_owned(),
-        ports: vec![
+        ports: Table::from([
             output(
                 "depth",
                 "Distance along the pixel's ray to the nearest surface, infinite where there is none",
@@ -64,8 +64,8 @@ fn descriptor() -> PassDescriptor {
                 (Dimension::D2, Class::RasterDepth, Format::Depth32Float),
                 [0.0; 4],
             ),
-        ],
-        params: Vec::new(),
+        ]),
+        params: Table::new(),
         presets: Vec::new(),
         scene: ["camera", "materials", "objects", "texels", "textures", "triangles", "vertices"]
             .map(str::to_owned)

@@ -8,7 +8,7 @@ use tyndall_plugin::descriptor::{
     Class, Dimension, Disabled, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role,
     SizeRule,
 };
-use tyndall_plugin::{GpuError, Program, Recorder, Resource, RustPass, Setup};
+use tyndall_plugin::{GpuError, Program, Recorder, Resource, RustPass, Setup, Table};
 
 /// The pass.
 pub(crate) fn pass() -> RustPass {
@@ -24,7 +24,7 @@ fn descriptor() -> PassDescriptor {
         name: "core.image".to_owned(),
         about: "A picture from a file: EXR, HDR, PNG (decoded to linear) or NPY, in its own size.".to_owned(),
         source: String::new(),
-        ports: vec![PortDescriptor {
+        ports: Table::from([PortDescriptor {
             name: "color".to_owned(),
             about: "The picture, linear, alpha 1 where the file has none".to_owned(),
             unit: String::new(),
@@ -37,8 +37,8 @@ fn descriptor() -> PassDescriptor {
             },
             size: Some(SizeRule::picture("file")),
             unordered: false,
-        }],
-        params: vec![ParamDescriptor {
+        }]),
+        params: Table::from([ParamDescriptor {
             name: "file".to_owned(),
             about: "Path of the picture, from the graph file".to_owned(),
             unit: String::new(),
@@ -46,7 +46,7 @@ fn descriptor() -> PassDescriptor {
             range: None,
             choices: Vec::new(),
             fixed: true,
-        }],
+        }]),
         presets: Vec::new(),
         scene: Vec::new(),
         side_effect: false,
@@ -92,7 +92,8 @@ fn rgba(image: &Image) -> Vec<u8> {
 
 impl Program for Picture {
     fn record(&mut self, recorder: &mut Recorder<'_>) -> Result<(), GpuError> {
-        recorder.write_texture(0, &self.texels)
+        let port = recorder.pass.port("color")?;
+        recorder.write_texture(port, &self.texels)
     }
 
     fn fingerprint(&self) -> u64 {

@@ -5,7 +5,7 @@ use std::time::Instant;
 use serde_json::{Value, json};
 use tyndall_gpu::{FrameOptions, Gpu, PipelineCache, Timing, bytes};
 use tyndall_graph::descriptor::{ParamDescriptor, ParamValue};
-use tyndall_graph::{Graph, Plan, Roots};
+use tyndall_graph::{Graph, Plan, PlannedPass, Roots, Table};
 use tyndall_image::metrics::median;
 use tyndall_render::Running;
 
@@ -68,8 +68,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Bench) -> Result<(), 
         cpu.push(report.cpu_us);
         gpu_times.extend(report.gpu_us);
     }
-    let runs: Vec<u64> = running.executor.counters().iter().map(|counters| counters.runs).collect();
-    let passes = time_passes(&mut running, verb, &runs)?;
+    let passes = time_passes(&mut running, verb)?;
     loading::warn_of_unfinished(&running)?;
     let plan: &Plan = running.executor.plan();
     let figures = Figures {
@@ -96,9 +95,10 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Bench) -> Result<(), 
 }
 
 /// Times each pass in frames of its own: timestamps around every pass at once would distort them all.
-fn time_passes(running: &mut Running<'_>, verb: &Bench, runs: &[u64]) -> Result<Vec<PassFigures>, Failure> {
+fn time_passes(running: &mut Running<'_>, verb: &Bench) -> Result<Vec<PassFigures>, Failure> {
+    let runs: Table<PlannedPass, u64> = running.executor.counters().iter().map(|counters| counters.runs).collect();
     let mut figures = Vec::with_capacity(runs.len());
-    for (pass, runs) in runs.iter().enumerate() {
+    for (pass, runs) in runs.entries() {
         let (mut cpu, mut gpu) = (Vec::new(), Vec::new());
         for frame in 0..verb.frames.min(MOST_FRAMES_PER_PASS) {
             let options = FrameOptions { frame, everything: true, timing: Timing::Pass(pass), cpu_times: true };
@@ -106,7 +106,7 @@ fn time_passes(running: &mut Running<'_>, verb: &Bench, runs: &[u64]) -> Result<
             cpu.push(running.executor.counters()[pass].cpu_us);
         }
         figures.push(PassFigures {
-            name: running.executor.plan().pass_name(pass as u32).to_owned(),
+            name: running.executor.plan().pass_name(pass).to_owned(),
             runs: *runs,
             cpu_us: median(&mut cpu).unwrap_or_default(),
             gpu_us: median(&mut gpu),
@@ -132,7 +132,7 @@ impl Varied {
         let mut targets = Vec::new();
         for found in graph.find_params(name) {
             let pass = graph.pass(found.pass);
-            let param = &pass.descriptor().params[found.param as usize];
+            let param = &pass.descriptor().params[found.param];
             if let Some(reason) = why_not(param, from, to) {
                 return Err(Failure::Usage(format!(
                     "--vary {text}: `{}` of pass `{}` {reason}",

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use tyndall_document::Place;
 use tyndall_gpu::{Executor, FrameOptions, Gpu, PipelineCache};
 use tyndall_graph::descriptor::{Dimension, PortKind};
-use tyndall_graph::{Graph, PortRef, Resource, Roots};
+use tyndall_graph::{Graph, Handle, PlannedPort, PortRef, Resource, Roots};
 use tyndall_image::{FileKind, frame_path, has_frame_number, supported};
 use tyndall_render::Running;
 
@@ -34,7 +34,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Render) -> Result<Vec
     clock.lap("graph and scene");
     let (first, end) = verb.frames.unwrap_or((0, 1));
     let roots = match (&verb.dump, verb.output.is_empty()) {
-        (Some(_), _) => Roots::Ports(every_port(&loaded.graph).collect()),
+        (Some(_), _) => Roots::Ports(loaded.graph.written_ports().collect()),
         (None, true) => Roots::Outputs,
         (None, false) => Roots::Ports(outputs.iter().map(|output| output.port).collect()),
     };
@@ -118,14 +118,6 @@ fn default_outputs(verb: &Render, graph: &Graph) -> Vec<Output> {
     graph.outputs.iter().map(|(name, port)| Output { port: *port, pattern: path(name, *port) }).collect()
 }
 
-/// Every port that a pass writes, those of passes that are switched off too.
-fn every_port(graph: &Graph) -> impl Iterator<Item = PortRef> {
-    graph.passes.node_weights().enumerate().flat_map(|(pass, of)| {
-        let ports = of.descriptor().ports.iter().enumerate().filter(|(_, port)| port.role.is_output());
-        ports.map(move |(port, _)| PortRef { pass: pass as u32, port: port as u32 })
-    })
-}
-
 fn is_picture(graph: &Graph, port: PortRef) -> bool {
     matches!(graph.port(port).kind, PortKind::Texture { dimension: Dimension::D2, .. })
 }
@@ -144,7 +136,7 @@ fn write_frame(running: &Running<'_>, verb: &Render, outputs: &[Output], frame: 
         let many = verb.frames.is_some_and(|(first, end)| end - first > 1);
         let folder = if many { folder.join(format!("{frame:04}")) } else { folder.clone() };
         let graph = &executor.plan().graph;
-        for port in every_port(graph) {
+        for port in graph.written_ports() {
             let suffix = if is_picture(graph, port) { "exr" } else { "npy" };
             let path = folder.join(format!("{}.{suffix}", graph.port_name(port)));
             let Some(planned) = executor.plan().planned(port) else { continue };
@@ -155,7 +147,7 @@ fn write_frame(running: &Running<'_>, verb: &Render, outputs: &[Output], frame: 
     Ok(())
 }
 
-fn told(path: &Path, executor: &Executor, port: u32) {
+fn told(path: &Path, executor: &Executor, port: Handle<PlannedPort>) {
     let size = match executor.plan().resource(port) {
         Resource::Texture { width, height, .. } => format!("{width}x{height}, "),
         Resource::Buffer { .. } => String::new(),

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use tyndall_document::Diagnostics;
-use tyndall_graph::{PlanOptions, Roots, plan};
+use tyndall_graph::{Handle, PlanOptions, PlannedPort, Roots, plan};
 use tyndall_testing::file::{Tapped, check, read};
 use tyndall_testing::{TestFile, discover};
 
@@ -72,15 +72,15 @@ fn every_port_that_is_read_is_held() {
         let tapped = check(&file, &loaded.graph, &has_reference, &mut out);
         let roots = Roots::Ports(tapped.iter().map(|tapped| tapped.port).collect());
         let plan = plan(&loaded.graph, &PlanOptions { roots, ..PlanOptions::new(loaded.graph.size) }).unwrap();
-        let is_held = |port: u32| {
+        let is_held = |port| {
             let holds = |tapped: &&Tapped| {
                 tapped.golden.is_some() || tapped.properties.iter().any(|property| property.metric().is_some())
             };
             tapped.iter().filter(holds).any(|tapped| plan.planned(tapped.port) == Some(port))
         };
-        let read: BTreeSet<u32> =
-            (0..plan.passes.len() as u32).flat_map(|pass| plan.sources(pass).iter().flatten().copied()).collect();
-        let written = read.into_iter().filter(|port| plan.ports[*port as usize].pass.is_some());
+        let read: BTreeSet<Handle<PlannedPort>> =
+            plan.passes.handles().flat_map(|pass| plan.sources(pass).iter().flatten().copied()).collect();
+        let written = read.into_iter().filter(|port| plan.ports[*port].pass.is_some());
         let names = written.filter(|port| !is_held(*port)).map(|port| plan.port_name(port));
         unheld.extend(names.map(|name| format!("{}: {name}", file.stem())));
     }

@@ -25,7 +25,7 @@ fn distinct_orders_of_a_shipped_graph_draw_the_same_bits() {
     let render = |session: &mut Session, order| {
         let variation = Variation { order, share: true, poison: true, reuse: false };
         let plan = Session::plan(&loaded.graph, Roots::Ports(ports.clone()), variation).unwrap();
-        let names: Vec<String> = (0..plan.passes.len() as u32).map(|pass| plan.pass_name(pass).to_owned()).collect();
+        let names: Vec<String> = plan.passes.handles().map(|pass| plan.pass_name(pass).to_owned()).collect();
         let frames = session.render(&loaded, &registry, &ports, &[0], variation).unwrap();
         let bytes = |port: &PortRef| frames[0].ports[port].bytes.clone();
         (names, ports.iter().map(bytes).collect::<Vec<Vec<u8>>>())

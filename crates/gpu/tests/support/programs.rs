@@ -97,7 +97,7 @@ fn pass(name: &str, ports: Vec<PortDescriptor>, param: Option<&str>) -> PassDesc
         name: name.to_owned(),
         about: "For tests.".to_owned(),
         source: String::new(),
-        ports,
+        ports: ports.into(),
         params: param.map(number).into_iter().collect(),
         presets: Vec::new(),
         scene: Vec::new(),

@@ -19,9 +19,9 @@ pub fn explain(plan: &Plan, name: &str) -> Result<String, Diagnostic> {
     let graph = &plan.graph;
     if let Some((pass, port)) = name.split_once('.')
         && let Some(pass) = graph.pass_named(pass)
-        && let Some(port) = graph.pass(pass).descriptor().ports.iter().position(|descriptor| descriptor.name == port)
+        && let Some(port) = graph.pass(pass).descriptor().port_named(port)
     {
-        return Ok(port::explain(plan, PortRef { pass, port: port as u32 }));
+        return Ok(port::explain(plan, PortRef { pass, port }));
     }
     if let Some(pass) = graph.pass_named(name) {
         return Ok(pass::explain(plan, pass));
@@ -73,7 +73,7 @@ impl Report {
 }
 
 /// `1st`, `2nd`, `13th`.
-fn ordinal(number: u32) -> String {
+fn ordinal(number: usize) -> String {
     let ending = match (number % 10, number % 100) {
         (1, rest) if rest != 11 => "st",
         (2, rest) if rest != 12 => "nd",

@@ -1,23 +1,21 @@
 //! Why a pass runs, and when.
 
-use petgraph::Direction;
-use petgraph::graph::NodeIndex;
-use petgraph::visit::EdgeRef;
 use rustc_hash::FxHashMap;
 
 use super::{Report, ordinal};
-use crate::graph::{Graph, ParamSetting};
-use crate::plan::{CullReason, Plan};
+use crate::graph::{Graph, GraphParam, ParamRef, ParamSetting, Pass};
+use crate::handle::Handle;
+use crate::plan::{CullReason, Plan, PlannedPass};
 use crate::show::culled_words;
 
 /// Explains a pass.
-pub(super) fn explain(plan: &Plan, pass: u32) -> String {
+pub(super) fn explain(plan: &Plan, pass: Handle<Pass>) -> String {
     let graph = &plan.graph;
     let of_pass = graph.pass(pass);
     let name = &of_pass.name;
     let mut report = match plan.position(pass) {
         Some(position) => {
-            let (at, of) = (ordinal(position + 1), plan.passes.len());
+            let (at, of) = (ordinal(position.index() + 1), plan.passes.len());
             Report::new(format!("`{name}` is {}, and runs as the {at} of {of} passes.", of_pass.descriptor().name))
         }
         None => Report::new(format!("`{name}` is {}, and does not run.", of_pass.descriptor().name)),
@@ -47,12 +45,12 @@ pub(super) fn explain(plan: &Plan, pass: u32) -> String {
 }
 
 /// The shortest way from the pass to something that was asked for.
-fn needed_by(plan: &Plan, pass: u32) -> String {
+fn needed_by(plan: &Plan, pass: Handle<Pass>) -> String {
     if plan.graph.pass(pass).descriptor().side_effect {
         return "it has a side effect, so it always runs".to_owned();
     }
     let readers = readers(plan);
-    let mut came_from: FxHashMap<u32, Option<(u32, String)>> = FxHashMap::from_iter([(pass, None)]);
+    let mut came_from: CameFrom = FxHashMap::from_iter([(pass, None)]);
     let mut queue = std::collections::VecDeque::from([pass]);
     while let Some(next) = queue.pop_front() {
         if let Some(end) = end_of(plan, next) {
@@ -68,17 +66,18 @@ fn needed_by(plan: &Plan, pass: u32) -> String {
     "nothing that was asked for".to_owned()
 }
 
+/// By pass, the one that it was reached from, and through which port.
+type CameFrom = FxHashMap<Handle<Pass>, Option<(Handle<Pass>, String)>>;
+
 /// By pass: the running passes that read it, and through which port.
-fn readers(plan: &Plan) -> FxHashMap<u32, Vec<(u32, String)>> {
-    let graph = &plan.graph;
-    let mut readers: FxHashMap<u32, Vec<(u32, String)>> = FxHashMap::default();
-    for position in 0..plan.passes.len() as u32 {
-        let reader = plan.passes[position as usize].index;
-        for number in graph.table.ports(reader) {
-            if let Some(source) = graph.table.feeds[number as usize].as_port() {
-                let port = &plan.descriptor(position).ports[(number - graph.table.port(reader, 0)) as usize].name;
-                let words = format!("{}.{port}", plan.pass_name(position));
-                readers.entry(graph.table.pass_of[source as usize]).or_default().push((reader, words));
+fn readers(plan: &Plan) -> FxHashMap<Handle<Pass>, Vec<(Handle<Pass>, String)>> {
+    let (graph, wiring) = (&plan.graph, &plan.graph.wiring);
+    let mut readers: FxHashMap<_, Vec<_>> = FxHashMap::default();
+    for reader in plan.passes.iter().map(|planned| planned.pass) {
+        for number in wiring.ports[reader].handles() {
+            if let Some(source) = wiring.feeds[number].as_port() {
+                let words = graph.port_name(wiring.port_ref(number));
+                readers.entry(wiring.pass_of[source]).or_default().push((reader, words));
             }
         }
     }
@@ -86,16 +85,16 @@ fn readers(plan: &Plan) -> FxHashMap<u32, Vec<(u32, String)>> {
 }
 
 /// What of a pass was asked for.
-fn end_of(plan: &Plan, pass: u32) -> Option<String> {
+fn end_of(plan: &Plan, pass: Handle<Pass>) -> Option<String> {
     let position = plan.position(pass)?;
-    let root = plan.outputs_of(position).find(|port| plan.ports[*port as usize].root)?;
+    let root = plan.outputs_of(position).find(|port| plan.ports[*port].root)?;
     Some(match plan.outputs.iter().find(|(_, port)| *port == root) {
         Some((name, _)) => format!("the output `{name}`"),
         None => format!("{}, which was asked for", plan.port_name(root)),
     })
 }
 
-fn way(plan: &Plan, last: u32, end: &str, came_from: &FxHashMap<u32, Option<(u32, String)>>) -> String {
+fn way(plan: &Plan, last: Handle<Pass>, end: &str, came_from: &CameFrom) -> String {
     let mut steps = vec![end.to_owned()];
     let mut pass = last;
     while let Some(Some((before, words))) = came_from.get(&pass) {
@@ -107,12 +106,12 @@ fn way(plan: &Plan, last: u32, end: &str, came_from: &FxHashMap<u32, Option<(u32
     steps.join(" → ")
 }
 
-fn runs_after(plan: &Plan, position: u32) -> Vec<String> {
+fn runs_after(plan: &Plan, position: Handle<PlannedPass>) -> Vec<String> {
     let sources = plan.sources(position).iter().zip(&plan.descriptor(position).ports);
     let mut lines: Vec<String> = sources
         .filter_map(|(source, port)| {
             let source = (*source)?;
-            let writer = plan.ports[source as usize].pass? + 1;
+            let writer = plan.ports[source].pass?.index() + 1;
             Some(format!("{}, the {}, for `{}`", plan.port_name(source), ordinal(writer), port.name))
         })
         .collect();
@@ -123,34 +122,34 @@ fn runs_after(plan: &Plan, position: u32) -> Vec<String> {
 }
 
 /// Whether the file's order or a wait put the pass at its position.
-fn placed(plan: &Plan, position: u32) -> String {
-    let pass = plan.passes[position as usize].index;
-    let Some(before) = position.checked_sub(1).map(|before| plan.passes[before as usize].index) else {
+fn placed(plan: &Plan, position: Handle<PlannedPass>) -> String {
+    let pass = plan.passes[position].pass;
+    let Some(before) = position.before().map(|before| plan.passes[before].pass) else {
         return "first".to_owned();
     };
-    let name = |pass: u32| &plan.graph.pass(pass).name;
+    let name = |pass: Handle<Pass>| &plan.graph.pass(pass).name;
     if before < pass {
         return format!("behind `{}`, as in the file", name(before));
     }
-    let after = plan.passes[position as usize + 1..].iter().find(|after| after.index < pass);
+    let after = plan.passes.iter().skip(position.index() + 1).find(|after| after.pass < pass);
     match after {
-        Some(after) => format!("before `{}`, which stands first in the file but depends on it", name(after.index)),
+        Some(after) => format!("before `{}`, which stands first in the file but depends on it", name(after.pass)),
         None => format!("behind `{}`, which had to run earlier than the file has it", name(before)),
     }
 }
 
 /// Why a pass runs in every frame, or does not.
-fn changes(plan: &Plan, position: u32) -> Vec<String> {
+fn changes(plan: &Plan, position: Handle<PlannedPass>) -> Vec<String> {
     if plan.passes.iter().all(|pass| pass.volatile) {
         return vec!["it runs in every frame".to_owned()];
     }
-    if !plan.passes[position as usize].volatile {
+    if !plan.passes[position].volatile {
         return vec!["nothing that it depends on changes from frame to frame, so it runs once".to_owned()];
     }
     let sources = plan.sources(position).iter().flatten();
     let changing = sources.filter(|source| {
-        let writer = plan.ports[**source as usize].pass;
-        writer.is_some_and(|writer| plan.passes[writer as usize].volatile)
+        let writer = plan.ports[**source].pass;
+        writer.is_some_and(|writer| plan.passes[writer].volatile)
     });
     let mut names: Vec<String> =
         changing.map(|source| format!("it reads {}, which changes", plan.port_name(*source))).collect();
@@ -164,15 +163,13 @@ fn changes(plan: &Plan, position: u32) -> Vec<String> {
 }
 
 /// The passes that read one which does not run: they do not run either.
-fn dead_readers(plan: &Plan, pass: u32) -> Vec<String> {
+fn dead_readers(plan: &Plan, pass: Handle<Pass>) -> Vec<String> {
     let graph = &plan.graph;
-    let mut edges: Vec<_> = graph.passes.edges_directed(NodeIndex::new(pass as usize), Direction::Outgoing).collect();
-    edges.sort_by_key(|edge| edge.weight().span.start);
-    let words = edges.iter().map(|edge| {
-        let reader = graph.pass(edge.target().index() as u32);
-        let port = &reader.descriptor().ports[edge.weight().to as usize].name;
-        let why = if reader.enabled { "does not run either" } else { "is switched off" };
-        format!("{}.{port}, which {why}", reader.name)
+    let read = graph.connections.iter().filter(|connection| connection.from.pass == pass);
+    let words = read.map(|connection| {
+        let is_on = graph.pass(connection.to.pass).enabled;
+        let why = if is_on { "does not run either" } else { "is switched off" };
+        format!("{}, which {why}", graph.port_name(connection.to))
     });
     let mut lines: Vec<String> = words.collect();
     if lines.is_empty() {
@@ -181,15 +178,13 @@ fn dead_readers(plan: &Plan, pass: u32) -> Vec<String> {
     lines
 }
 
-fn parameters(graph: &Graph, pass: u32) -> Vec<String> {
+fn parameters(graph: &Graph, pass: Handle<Pass>) -> Vec<String> {
     let of_pass = graph.pass(pass);
-    let settings = of_pass.params.iter().zip(&of_pass.descriptor().params).enumerate();
+    let settings = of_pass.params.entries().zip(&of_pass.descriptor().params);
     settings
-        .map(|(index, (setting, param))| {
+        .map(|((index, setting), param)| {
             let unit = if param.unit.is_empty() { String::new() } else { format!(" {}", param.unit) };
-            let uses = |used: &&crate::graph::GraphParam| {
-                used.uses.iter().any(|used| (used.pass, used.param as usize) == (pass, index))
-            };
+            let uses = |given: &&GraphParam| given.uses.contains(&ParamRef { pass, param: index });
             match (setting, graph.params.iter().find(uses)) {
                 (ParamSetting::Frame, _) => format!("{} = $frame", param.name),
                 (ParamSetting::Time, _) => format!("{} = $time", param.name),

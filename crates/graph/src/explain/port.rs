@@ -4,15 +4,17 @@ use super::Report;
 use super::sizes::size_lines;
 use crate::descriptor::{PortDescriptor, PortKind};
 use crate::graph::PortRef;
-use crate::plan::{Plan, PlannedPort, Resource, SlotKind};
+use crate::handle::Handle;
+use crate::plan::{Plan, PlannedPass, PlannedPort, Resource, SlotKind, Until};
 use crate::show::{byte_words, culled_words, readers, value_words};
 use crate::signature::RoleKind;
+use crate::wiring::Feed;
 
 /// Explains a port of any pass, inputs too.
 pub(super) fn explain(plan: &Plan, port: PortRef) -> String {
     let graph = &plan.graph;
     let descriptor = graph.port(port);
-    let role = graph.table.kind(port.pass).signature.ports[port.port as usize].role;
+    let role = graph.wiring.signature(port).role;
     let mut report = Report::new(format!("`{}`: {}", graph.port_name(port), about(descriptor)));
     match plan.position(port.pass) {
         None => not_running(plan, port, &mut report),
@@ -26,9 +28,9 @@ pub(super) fn explain(plan: &Plan, port: PortRef) -> String {
     if let Some(planned) = plan.planned(port).filter(|_| role.is_output()) {
         storage(plan, planned, &mut report);
     } else if let Some(position) = plan.position(port.pass)
-        && let Some(slot) = plan.bindings(position)[port.port as usize]
+        && let Some(slot) = plan.bindings(position)[port.port]
     {
-        let of_slot = &plan.slots[slot as usize];
+        let of_slot = &plan.slots[slot];
         report.line("storage", &format!("slot {slot}: {}, {}", of_slot.resource, byte_words(of_slot.resource.bytes())));
     }
     report.text
@@ -48,32 +50,25 @@ fn about(descriptor: &PortDescriptor) -> String {
 fn not_running(plan: &Plan, port: PortRef, report: &mut Report) {
     let culled = plan.culled.iter().find(|culled| culled.pass == port.pass);
     report.line("culled", &culled.map(|culled| culled_words(plan, culled)).unwrap_or_default());
-    let table = &plan.graph.table;
-    let number = table.port(port.pass, port.port);
-    if table.enabled[port.pass as usize] || !plan.graph.port(port).role.is_output() {
+    let wiring = &plan.graph.wiring;
+    if wiring.enabled[port.pass] || !plan.graph.port(port).role.is_output() {
         return;
     }
-    let feed = table.feeds[number as usize];
-    if let Some(source) = feed.as_port() {
-        let source = port_of(plan, source);
-        report.line("instead", &format!("{} flows on", plan.graph.port_name(source)));
-    } else if let Some(constant) = feed.as_constant() {
-        let PortRef { pass, port } = port_of(plan, constant);
-        let value = table.kind(pass).signature.ports[port as usize].constant;
-        report.line("instead", &format!("{} flows out of it", value_words(value)));
+    match wiring.feeds[wiring.port(port)] {
+        Feed::Port(source) => {
+            report.line("instead", &format!("{} flows on", plan.graph.port_name(wiring.port_ref(source))));
+        }
+        Feed::Constant(constant) => {
+            let value = wiring.signature(wiring.port_ref(constant)).constant;
+            report.line("instead", &format!("{} flows out of it", value_words(value)));
+        }
+        Feed::Nothing => {}
     }
 }
 
-/// A port by its number.
-pub(super) fn port_of(plan: &Plan, number: u32) -> PortRef {
-    let table = &plan.graph.table;
-    let pass = table.pass_of[number as usize];
-    PortRef { pass, port: number - table.first_port[pass as usize] }
-}
-
-fn fed_by(plan: &Plan, position: u32, port: PortRef, role: RoleKind) -> String {
-    let source = plan.sources(position)[port.port as usize];
-    let slot = plan.bindings(position)[port.port as usize].map(|slot| plan.slots[slot as usize].kind);
+fn fed_by(plan: &Plan, position: Handle<PlannedPass>, port: PortRef, role: RoleKind) -> String {
+    let source = plan.sources(position)[port.port];
+    let slot = plan.bindings(position)[port.port].map(|slot| plan.slots[slot].kind);
     match (source, slot) {
         (Some(source), _) if role == RoleKind::InOut => {
             format!("{}, changed {}", plan.port_name(source), in_place_words(plan, port, source))
@@ -83,8 +78,8 @@ fn fed_by(plan: &Plan, position: u32, port: PortRef, role: RoleKind) -> String {
             format!("what {} held in the frame before, {} in the first", plan.port_name(of), value_words(first))
         }
         (None, Some(SlotKind::Constant(value))) => {
-            let fed = plan.graph.table.feeds[plan.graph.table.port(port.pass, port.port) as usize].as_constant();
-            let own = fed == Some(plan.graph.table.port(port.pass, port.port));
+            let number = plan.graph.wiring.port(port);
+            let own = plan.graph.wiring.feeds[number] == Feed::Constant(number);
             let why = if own { "nothing is connected" } else { "the pass that would feed it is switched off" };
             format!("the constant {}: {why}", value_words(value))
         }
@@ -93,16 +88,15 @@ fn fed_by(plan: &Plan, position: u32, port: PortRef, role: RoleKind) -> String {
 }
 
 /// In place, or in a copy and why.
-fn in_place_words(plan: &Plan, port: PortRef, source: u32) -> String {
-    let Some(planned) = plan.planned(port).map(|planned| &plan.ports[planned as usize]) else { return String::new() };
+fn in_place_words(plan: &Plan, port: PortRef, source: Handle<PlannedPort>) -> String {
+    let Some(planned) = plan.planned(port).map(|planned| &plan.ports[planned]) else { return String::new() };
     if planned.in_place {
         return "in place: nothing reads the old version any more".to_owned();
     }
-    let old = &plan.ports[source as usize];
-    let position = planned.pass.unwrap_or(0);
-    let later: Vec<&str> = readers(plan)[source as usize]
+    let old = &plan.ports[source];
+    let later: Vec<&str> = readers(plan)[source]
         .iter()
-        .filter(|reader| **reader > position)
+        .filter(|reader| Some(**reader) > planned.pass)
         .map(|reader| plan.pass_name(*reader))
         .collect();
     let why = match old {
@@ -116,11 +110,10 @@ fn in_place_words(plan: &Plan, port: PortRef, source: u32) -> String {
 }
 
 fn format(plan: &Plan, port: PortRef) -> String {
-    let table = &plan.graph.table;
-    let of_port = &table.kind(port.pass).signature.ports[port.port as usize];
+    let of_port = plan.graph.wiring.signature(port);
     let kind = &plan.graph.pass(port.pass).descriptor().name;
     let resource = resource(plan, port);
-    let like = of_port.like.map(|like| &plan.graph.pass(port.pass).descriptor().ports[like as usize].name);
+    let like = of_port.like.map(|like| &plan.graph.port(PortRef { port: like, ..port }).name);
     let why = match (of_port.role, like) {
         (RoleKind::Output, Some(like)) => format!("that of `{like}`, for {kind} writes what it reads"),
         (RoleKind::Output, None) => format!("declared by {kind}"),
@@ -135,59 +128,62 @@ fn format(plan: &Plan, port: PortRef) -> String {
 
 fn resource(plan: &Plan, port: PortRef) -> Option<Resource> {
     if let Some(position) = plan.position(port.pass) {
-        let slot = plan.bindings(position)[port.port as usize]?;
-        return Some(plan.slots[slot as usize].resource);
+        let slot = plan.bindings(position)[port.port]?;
+        return Some(plan.slots[slot].resource);
     }
     plan.planned(port).map(|planned| *plan.resource(planned))
 }
 
 /// The slot of a port, who else is in it, and for how long the port is.
-fn storage(plan: &Plan, planned: u32, report: &mut Report) {
-    let port = &plan.ports[planned as usize];
-    let slot = &plan.slots[port.slot as usize];
+fn storage(plan: &Plan, planned: Handle<PlannedPort>, report: &mut Report) {
+    let port = &plan.ports[planned];
+    let slot = &plan.slots[port.slot];
     let bytes = byte_words(slot.resource.bytes());
     report.line("storage", &format!("slot {}: {}, {bytes}, {}", port.slot, slot.resource, slot.usages));
     report.line("lifetime", &lifetime(plan, planned));
     report.line("sharing", &sharing(plan, planned));
 }
 
-fn lifetime(plan: &Plan, planned: u32) -> String {
-    let port = &plan.ports[planned as usize];
+fn lifetime(plan: &Plan, planned: Handle<PlannedPort>) -> String {
+    let port = &plan.ports[planned];
     let Some(writer) = port.pass else { return "always: it is a constant".to_owned() };
-    let readers = &readers(plan)[planned as usize];
+    let readers = &readers(plan)[planned];
     let names: Vec<String> =
-        readers.iter().map(|reader| format!("{} at {}", plan.pass_name(*reader), reader + 1)).collect();
+        readers.iter().map(|reader| format!("{} at {}", plan.pass_name(*reader), reader.index() + 1)).collect();
     let read = if names.is_empty() { "read by no pass".to_owned() } else { format!("read by {}", names.join(", ")) };
     let end = match port {
         PlannedPort { root: true, .. } => "; it stays to the end of the frame, because it was asked for",
         PlannedPort { carried: true, .. } => "; it stays to the end of the frame, to be carried to the next",
         _ => "",
     };
-    format!("written at {}, {read}{end}", writer + 1)
+    format!("written at {}, {read}{end}", writer.index() + 1)
 }
 
-fn sharing(plan: &Plan, planned: u32) -> String {
-    let port = &plan.ports[planned as usize];
-    let others: Vec<u32> = plan.ports_in(port.slot).filter(|other| *other != planned).collect();
+fn sharing(plan: &Plan, planned: Handle<PlannedPort>) -> String {
+    let port = &plan.ports[planned];
+    let others: Vec<Handle<PlannedPort>> = plan.ports_in(port.slot).filter(|other| *other != planned).collect();
     if others.is_empty() {
         return alone(plan, port);
     }
     let words = others.iter().map(|other| {
-        let (first, last) = plan.ports[*other as usize].lifetime;
-        let last = if last as usize == plan.passes.len() { "the end".to_owned() } else { (last + 1).to_string() };
-        format!("{} ({} to {last})", plan.port_name(*other), first + 1)
+        let PlannedPort { pass, until, .. } = &plan.ports[*other];
+        let last = match until {
+            Until::Pass(last) => (last.index() + 1).to_string(),
+            Until::End => "the end".to_owned(),
+        };
+        let first = pass.map_or(0, Handle::index) + 1;
+        format!("{} ({first} to {last})", plan.port_name(*other))
     });
     format!("the slot holds at other times {}", words.collect::<Vec<_>>().join(", "))
 }
 
 /// Why a port has its slot for itself.
 fn alone(plan: &Plan, port: &PlannedPort) -> String {
-    let slot = &plan.slots[port.slot as usize];
+    let slot = &plan.slots[port.slot];
     if slot.kind == SlotKind::Kept {
         return "none: its content is kept across frames".to_owned();
     }
-    let equal =
-        |other: &&PlannedPort| plan.slots[other.slot as usize].resource == slot.resource && other.port != port.port;
+    let equal = |other: &&PlannedPort| plan.slots[other.slot].resource == slot.resource && other.port != port.port;
     let equals = plan.ports.iter().filter(equal).count();
     match equals {
         0 => format!("none: no other port is {}", slot.resource),
@@ -196,7 +192,7 @@ fn alone(plan: &Plan, port: &PlannedPort) -> String {
                 .ports
                 .iter()
                 .filter(equal)
-                .all(|other| other.lifetime.0 <= port.lifetime.1 && port.lifetime.0 <= other.lifetime.1);
+                .all(|other| other.is_written_before_the_end_of(port) && port.is_written_before_the_end_of(other));
             match overlap {
                 true => format!("none: all {equals} other ports of the same resource are alive at the same time"),
                 false => format!("none: the other ports of the same resource ({equals}) found room in other slots"),

@@ -1,18 +1,17 @@
 //! The rules from which the size of a port follows.
 
-use super::port::port_of;
 use crate::descriptor::{Extent, PortKind, SizeRule};
-use crate::graph::{ParamSetting, PortRef};
+use crate::graph::{ParamSetting, Pass, PortRef};
+use crate::handle::Handle;
 use crate::plan::Plan;
-use crate::plan::sizes::{Size, sizes};
-use crate::signature::RoleKind;
+use crate::plan::sizes::{Sizes, sizes};
 
 /// Longest chain that is told.
 const MOST_LINES: usize = 40;
 
 /// Every rule on the way from a port's size to the frame, a fixed size or a parameter.
 pub(super) fn size_lines(plan: &Plan, port: PortRef) -> Vec<String> {
-    let (sizes, _) = sizes(&plan.graph, &plan.graph.table.feeds, plan.size);
+    let (sizes, _) = sizes(&plan.graph, &plan.graph.wiring.feeds, plan.size);
     let mut chain = Chain { plan, sizes, lines: Vec::new(), told: Vec::new() };
     chain.tell(port);
     chain.lines
@@ -20,7 +19,7 @@ pub(super) fn size_lines(plan: &Plan, port: PortRef) -> Vec<String> {
 
 struct Chain<'a> {
     plan: &'a Plan,
-    sizes: Vec<Size>,
+    sizes: Sizes,
     lines: Vec<String>,
     told: Vec<PortRef>,
 }
@@ -32,13 +31,12 @@ impl Chain<'_> {
         }
         self.told.push(port);
         let graph = &self.plan.graph;
-        let table = &graph.table;
-        let number = table.port(port.pass, port.port);
-        let role = table.kind(port.pass).signature.ports[port.port as usize].role;
+        let wiring = &graph.wiring;
+        let number = wiring.port(port);
         let (name, size) = (graph.port_name(port), self.words(port));
-        let source = table.feeds[number as usize].number().filter(|source| *source != number);
-        if let (true, Some(source)) = (role != RoleKind::Output, source) {
-            let source = port_of(self.plan, source);
+        let source = wiring.feeds[number].like().filter(|source| *source != number);
+        if let (true, Some(source)) = (wiring.signature(port).role.is_input(), source) {
+            let source = wiring.port_ref(source);
             self.lines.push(format!("{name} is {size}, because {} is fed to it", graph.port_name(source)));
             return self.tell(source);
         }
@@ -50,16 +48,15 @@ impl Chain<'_> {
         self.lines.push(format!("{name} is {size}: {}", self.rule_words(port.pass, &rule)));
         for extent in [&rule.width, &rule.height, &rule.depth] {
             if let Extent::Port { port: named, .. } = extent
-                && let Some(index) =
-                    graph.pass(port.pass).descriptor().ports.iter().position(|other| other.name == *named)
+                && let Some(named) = graph.pass(port.pass).descriptor().port_named(named)
             {
-                self.tell(PortRef { pass: port.pass, port: index as u32 });
+                self.tell(PortRef { port: named, ..port });
             }
         }
     }
 
     /// The rule, with what its parameters and the frame are.
-    fn rule_words(&self, pass: u32, rule: &SizeRule) -> String {
+    fn rule_words(&self, pass: Handle<Pass>, rule: &SizeRule) -> String {
         let mut words = rule.to_string();
         let mut known: Vec<String> = Vec::new();
         for extent in [&rule.width, &rule.height, &rule.depth] {
@@ -80,7 +77,7 @@ impl Chain<'_> {
         words
     }
 
-    fn param_words(&self, pass: u32, name: &str) -> String {
+    fn param_words(&self, pass: Handle<Pass>, name: &str) -> String {
         let of_pass = self.plan.graph.pass(pass);
         let settings = of_pass.params.iter().zip(&of_pass.descriptor().params);
         let setting = settings.into_iter().find(|(_, param)| param.name == name).map(|(setting, _)| setting);
@@ -91,10 +88,8 @@ impl Chain<'_> {
     }
 
     fn words(&self, port: PortRef) -> String {
-        let table = &self.plan.graph.table;
-        let size = self.sizes[table.port(port.pass, port.port) as usize];
-        let axes = table.kind(port.pass).signature.ports[port.port as usize].axes as usize;
-        match &size[..axes] {
+        let wiring = &self.plan.graph.wiring;
+        match &self.sizes[wiring.port(port)][..wiring.signature(port).axes] {
             [] => "one value".to_owned(),
             [elements] => format!("{elements} elements"),
             extents => extents.iter().map(ToString::to_string).collect::<Vec<_>>().join("×"),

@@ -4,6 +4,9 @@ use std::sync::Arc;
 
 use tyndall_document::{Node, Source, Span};
 
+use crate::graph::Pass;
+use crate::handle::Table;
+
 mod read;
 
 pub use read::read;
@@ -22,7 +25,7 @@ pub struct GraphFile {
     /// Parameters of the graph, in file order.
     pub params: Vec<ParamEntry>,
     /// Passes, in file order.
-    pub passes: Vec<PassEntry>,
+    pub passes: Table<Pass, PassEntry>,
     /// Outputs, in file order.
     pub outputs: Vec<OutputEntry>,
     /// Where the outputs stand; the whole file where they do not.

@@ -6,6 +6,8 @@ use tyndall_document::{Decoder, Diagnostic, Diagnostics, Field, Node, Source, Sp
 
 use super::{GraphFile, InputEntry, OutputEntry, ParamEntry, PassEntry, Spanned, Switch, Text, is_name};
 use crate::codes;
+use crate::graph::Pass;
+use crate::handle::Table;
 
 /// The version of the file format that this crate reads.
 pub(crate) const VERSION: i64 = 1;
@@ -126,9 +128,9 @@ fn params(decoder: &mut Decoder<'_>, node: &mut Node, check: fn(&mut Decoder<'_>
     params
 }
 
-fn passes(decoder: &mut Decoder<'_>, node: &mut Node) -> Vec<PassEntry> {
+fn passes(decoder: &mut Decoder<'_>, node: &mut Node) -> Table<Pass, PassEntry> {
     let entries = entries(decoder, node);
-    let mut passes = Vec::with_capacity(entries.len());
+    let mut passes = Table::with_capacity(entries.len());
     for (mut key, mut value) in entries {
         passes.extend(named(decoder, &mut key, check_name).map(|name| pass(decoder, name, &mut value)));
     }

@@ -1,4 +1,4 @@
-//! From a graph to its plan, by indices alone, in time linear in ports and connections.
+//! From a graph to its plan, by handles alone, in time linear in ports and connections.
 
 use std::sync::Arc;
 
@@ -18,21 +18,19 @@ use crate::validate::size_mistakes;
 /// # Errors
 /// What depends on the size of the frame: an input that demands another size than it is fed (`wrong-size`).
 pub fn plan(graph: &Arc<Graph>, options: &PlanOptions) -> Result<Plan, Vec<Diagnostic>> {
-    let table = &graph.table;
-    let (sizes, problems) = sizes(graph, &table.feeds, options.size);
+    let wiring = &graph.wiring;
+    let (sizes, problems) = sizes(graph, &wiring.feeds, options.size);
     if !problems.is_empty() {
         return Err(size_mistakes(graph, &problems));
     }
     let roots = roots(graph, options);
-    let needed = needed(table, &roots);
-    let order = order(table, &needed, options.order);
-    let mut draft = Draft::new(table, &order, &needed, &roots);
+    let needed = needed(wiring, &roots);
+    let order = order(wiring, &needed, options.order);
+    let mut draft = Draft::new(wiring, &order, &needed, &roots);
     draft.keep(graph, &options.keep);
     let keep = matches!(options.keep, Keep::Edges { .. });
-    let ports = std::mem::take(&mut draft.ports);
-    let plain = (!options.share || keep)
-        .then(|| assign(table, &sizes, &draft, ports.clone(), Policy { share: true, keep: false }));
-    let chosen = assign(table, &sizes, &draft, ports, Policy { share: options.share, keep });
+    let plain = (!options.share || keep).then(|| assign(wiring, &sizes, &draft, Policy { share: true, keep: false }));
+    let chosen = assign(wiring, &sizes, &draft, Policy { share: options.share, keep });
     let bytes = bytes(&chosen, plain.as_ref().unwrap_or(&chosen));
     let mut plan = Plan {
         graph: graph.clone(),
@@ -43,14 +41,13 @@ pub fn plan(graph: &Arc<Graph>, options: &PlanOptions) -> Result<Plan, Vec<Diagn
         steps: chosen.steps,
         outputs: Vec::new(),
         roots: draft.roots,
-        culled: culled(table, &needed),
+        culled: culled(wiring, &needed),
         bytes,
         bindings: chosen.bindings,
-        sources: chosen.sources,
         planned: draft.planned,
         positions: draft.positions,
     };
-    let asked_for = |port| plan.planned(port).filter(|port| plan.ports[*port as usize].root);
+    let asked_for = |port| plan.planned(port).filter(|port| plan.ports[*port].root);
     let outputs = graph.outputs.iter();
     plan.outputs = outputs.filter_map(|(name, port)| Some((name.clone(), asked_for(*port)?))).collect();
     Ok(plan)

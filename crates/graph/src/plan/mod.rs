@@ -11,74 +11,76 @@ mod slots;
 
 use std::sync::Arc;
 
-use crate::descriptor::{Class, PassDescriptor, PortDescriptor};
-use crate::graph::{Graph, ParamSetting, PortRef};
-use crate::table::NONE;
+use crate::descriptor::{Class, ParamDescriptor, PassDescriptor, PortDescriptor};
+use crate::graph::{Graph, ParamSetting, Pass, PortRef};
+use crate::handle::{Handle, Handles, Slice, Table};
+use crate::wiring::GraphPort;
 
 pub use build::plan;
 pub use options::{Keep, Order, PlanOptions, Roots};
 pub use resource::{Resource, Usages};
 
-/// What a frame does, by index alone. Made by [`plan`](plan()); two plans of the same graph and options are equal.
+/// What a frame does, by handles alone. Made by [`plan`](plan()); two plans of the same graph and options are equal.
 #[derive(Debug, Clone)]
 pub struct Plan {
     /// The graph that was planned.
     pub graph: Arc<Graph>,
     /// Size of the frame in pixels.
     pub size: (u32, u32),
-    /// The passes that run, in order: a position is an index into this.
-    pub passes: Vec<PlannedPass>,
+    /// The passes that run, in order: their handles are positions.
+    pub passes: Table<PlannedPass>,
     /// Every port that a pass of this plan writes, pass by pass; and after them, constants that stand for an asked-for
     /// port of a switched-off pass.
-    pub ports: Vec<PlannedPort>,
+    pub ports: Table<PlannedPort>,
     /// The physical textures and buffers.
-    pub slots: Vec<Slot>,
+    pub slots: Table<Slot>,
     /// What to do in a frame, in order.
     pub steps: Vec<Step>,
-    /// The graph's outputs that are roots of this plan, by name, in file order, and their index in `ports`.
-    pub outputs: Vec<(String, u32)>,
-    /// The ports that live to the end of the frame because they were asked for, as indices into `ports`, sorted.
-    pub roots: Vec<u32>,
+    /// The graph's outputs that are roots of this plan, by name, in file order.
+    pub outputs: Vec<(String, Handle<PlannedPort>)>,
+    /// The ports that live to the end of the frame because they were asked for, sorted.
+    pub roots: Vec<Handle<PlannedPort>>,
     /// The passes that do not run, in file order.
     pub culled: Vec<Culled>,
     /// Bytes of memory.
     pub bytes: Bytes,
-    bindings: Vec<Option<u32>>,
-    sources: Vec<Option<u32>>,
-    /// Planned port of every port of the graph, or `NONE`.
-    planned: Vec<u32>,
-    /// By pass of the graph: position, or `NONE`.
-    positions: Vec<u32>,
+    bindings: Bindings,
+    planned: Table<GraphPort, Option<Handle<PlannedPort>>>,
+    positions: Table<Pass, Option<Handle<PlannedPass>>>,
+}
+
+/// What each port of the passes that run is bound to and fed by.
+#[derive(Debug, Clone)]
+struct Bindings {
+    slots: Table<GraphPort, Option<Handle<Slot>>>,
+    sources: Table<GraphPort, Option<Handle<PlannedPort>>>,
 }
 
 /// A pass at its position; what belongs to it is read through the methods of [`Plan`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PlannedPass {
-    /// Index of the pass in the graph.
-    pub index: u32,
+    /// The pass in the graph.
+    pub pass: Handle<Pass>,
     /// Its results may differ from frame to frame, so that it runs in each. True for every pass under
     /// [`Keep::Nothing`].
     pub volatile: bool,
-    /// First of its entries in `bindings` and `sources`.
-    first_binding: u32,
-    /// First of its ports in `ports`.
-    first_port: u32,
+    /// The ports that it writes.
+    outputs: Handles<PlannedPort>,
 }
 
 /// A version of a resource, as one pass writes it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PlannedPort {
     /// Position of the pass that writes it. `None` of a constant that stands for a port of a switched-off pass.
-    pub pass: Option<u32>,
+    pub pass: Option<Handle<PlannedPass>>,
     /// The port in the graph.
     pub port: PortRef,
     /// The slot that holds it.
-    pub slot: u32,
+    pub slot: Handle<Slot>,
     /// What its channels mean; never [`Class::Any`] for a texture.
     pub class: Class,
-    /// Positions of the pass that writes it and of the last that reads it; the number of passes where it lives to the
-    /// end of the frame.
-    pub lifetime: (u32, u32),
+    /// How long it lives after it was written.
+    pub until: Until,
     /// It was asked for: an output, a tap.
     pub root: bool,
     /// Its content outlives the frame, because passes that change from frame to frame read what this unchanging pass
@@ -88,7 +90,23 @@ pub struct PlannedPort {
     pub carried: bool,
     /// It shares its slot with the version before it, which the same pass reads in place.
     pub in_place: bool,
-    next_in_slot: u32,
+    next_in_slot: Option<Handle<PlannedPort>>,
+}
+
+/// How long a port lives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Until {
+    /// The pass at this position reads it last; where none does, it is the one that writes it.
+    Pass(Handle<PlannedPass>),
+    /// To the end of the frame.
+    End,
+}
+
+impl PlannedPort {
+    /// Whether it is written while another one lives, or before.
+    pub(crate) fn is_written_before_the_end_of(&self, other: &Self) -> bool {
+        self.pass.is_none_or(|written| Until::Pass(written) <= other.until)
+    }
 }
 
 /// A physical texture or buffer.
@@ -100,7 +118,7 @@ pub struct Slot {
     pub kind: SlotKind,
     /// In which ways it is used.
     pub usages: Usages,
-    first_port: u32,
+    first_port: Option<Handle<PlannedPort>>,
 }
 
 /// How long a slot holds what.
@@ -115,7 +133,7 @@ pub enum SlotKind {
     /// What a port held in the frame before.
     History {
         /// The planned port whose content is carried over.
-        of: u32,
+        of: Handle<PlannedPort>,
         /// Every element reads as this value in the first frame.
         first: [f32; 4],
     },
@@ -138,31 +156,31 @@ pub enum Step {
     /// to the pass: where that does not run, neither does this.
     Copy {
         /// Position of the pass that follows.
-        pass: u32,
+        pass: Handle<PlannedPass>,
         /// Slot to read.
-        from: u32,
+        from: Handle<Slot>,
         /// Slot to write; of an equal resource.
-        to: u32,
+        to: Handle<Slot>,
     },
     /// Runs the pass at this position.
     Run {
         /// Position.
-        pass: u32,
+        pass: Handle<PlannedPass>,
     },
     /// At the end of the frame: carries a port's content over to the next frame.
     Carry {
         /// Slot to read.
-        from: u32,
+        from: Handle<Slot>,
         /// History slot to write; of an equal resource.
-        to: u32,
+        to: Handle<Slot>,
     },
 }
 
 /// A pass that does not run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Culled {
-    /// Index of the pass in the graph.
-    pub pass: u32,
+    /// The pass in the graph.
+    pub pass: Handle<Pass>,
     /// Why.
     pub reason: CullReason,
 }
@@ -192,7 +210,7 @@ pub struct Bytes {
     /// Of these, constants.
     pub constant: u64,
     /// The same, one sharing class each, in order of first use.
-    pub classes: Vec<ClassBytes>,
+    pub classes: Table<ClassBytes>,
 }
 
 /// Ports that may share memory because their resources are equal.
@@ -208,84 +226,83 @@ pub struct ClassBytes {
 
 impl Plan {
     /// Name of the pass at this position.
-    pub fn pass_name(&self, pass: u32) -> &str {
-        &self.graph.pass(self.passes[pass as usize].index).name
+    pub fn pass_name(&self, position: Handle<PlannedPass>) -> &str {
+        &self.pass(position).name
     }
 
     /// What the pass at this position declares.
-    pub fn descriptor(&self, pass: u32) -> &Arc<PassDescriptor> {
-        self.graph.pass(self.passes[pass as usize].index).descriptor()
+    pub fn descriptor(&self, position: Handle<PlannedPass>) -> &Arc<PassDescriptor> {
+        self.pass(position).descriptor()
     }
 
     /// Whether any pass reads the scene data of this name.
     pub fn reads(&self, name: &str) -> bool {
-        (0..self.passes.len() as u32).any(|pass| self.descriptor(pass).scene.iter().any(|read| read == name))
+        self.passes.handles().any(|position| self.descriptor(position).scene.iter().any(|read| read == name))
     }
 
-    /// Settings of the pass at this position, one for each of the descriptor's parameters.
-    pub fn params(&self, pass: u32) -> &[ParamSetting] {
-        &self.graph.pass(self.passes[pass as usize].index).params
+    /// Settings of the pass at this position.
+    pub fn params(&self, position: Handle<PlannedPass>) -> &Table<ParamDescriptor, ParamSetting> {
+        &self.pass(position).params
     }
 
     /// The slot bound to each of the descriptor's ports: inputs, constants for what is absent, outputs. Every entry is
     /// `Some`, but for an input that the pass declares and a mistake left unfed.
-    pub fn bindings(&self, pass: u32) -> &[Option<u32>] {
-        let first = self.passes[pass as usize].first_binding as usize;
-        &self.bindings[first..first + self.descriptor(pass).ports.len()]
+    pub fn bindings(&self, position: Handle<PlannedPass>) -> Slice<'_, PortDescriptor, Option<Handle<Slot>>> {
+        self.bindings.slots.slice(self.graph.wiring.ports[self.passes[position].pass])
     }
 
     /// The planned port that feeds each of the descriptor's ports. `None` of an output, of a history port, and of an
     /// input that reads a constant slot.
-    pub fn sources(&self, pass: u32) -> &[Option<u32>] {
-        let first = self.passes[pass as usize].first_binding as usize;
-        &self.sources[first..first + self.descriptor(pass).ports.len()]
+    pub fn sources(&self, position: Handle<PlannedPass>) -> Slice<'_, PortDescriptor, Option<Handle<PlannedPort>>> {
+        self.bindings.sources.slice(self.graph.wiring.ports[self.passes[position].pass])
     }
 
-    /// The ports that the pass at this position writes, as a range of `ports`, in the descriptor's order.
-    pub fn outputs_of(&self, pass: u32) -> std::ops::Range<u32> {
-        let first = self.passes[pass as usize].first_port;
-        first..first + self.descriptor(pass).outputs().count() as u32
+    /// The ports that the pass at this position writes, in the descriptor's order.
+    pub fn outputs_of(&self, position: Handle<PlannedPass>) -> Handles<PlannedPort> {
+        self.passes[position].outputs.clone()
     }
 
     /// `pass.port` of a planned port.
-    pub fn port_name(&self, port: u32) -> String {
-        self.graph.port_name(self.ports[port as usize].port)
+    pub fn port_name(&self, port: Handle<PlannedPort>) -> String {
+        self.graph.port_name(self.ports[port].port)
     }
 
     /// What the pass declares about a planned port.
-    pub fn port_descriptor(&self, port: u32) -> &PortDescriptor {
-        self.graph.port(self.ports[port as usize].port)
+    pub fn port_descriptor(&self, port: Handle<PlannedPort>) -> &PortDescriptor {
+        self.graph.port(self.ports[port].port)
     }
 
     /// The resource of a planned port.
-    pub fn resource(&self, port: u32) -> &Resource {
-        &self.slots[self.ports[port as usize].slot as usize].resource
+    pub fn resource(&self, port: Handle<PlannedPort>) -> &Resource {
+        &self.slots[self.ports[port].slot].resource
     }
 
     /// The planned port of a port of the graph: what flows there, so the port that is passed through where the pass is
     /// switched off. `None` where it was culled, or is a constant that nobody asked for.
-    pub fn planned(&self, port: PortRef) -> Option<u32> {
-        let table = &self.graph.table;
-        let number = table.port(port.pass, port.port);
-        let planned = |number: u32| Some(self.planned[number as usize]).filter(|port| *port != NONE);
-        planned(number).or_else(|| planned(table.out_of(number).as_port()?))
+    pub fn planned(&self, port: PortRef) -> Option<Handle<PlannedPort>> {
+        let wiring = &self.graph.wiring;
+        let port = wiring.port(port);
+        self.planned[port].or_else(|| self.planned[wiring.out_of(port).as_port()?])
     }
 
     /// The planned port that a name means: an output of the graph or `pass.port`. `None` where the name is unknown, or
     /// its pass was culled.
-    pub fn find(&self, name: &str) -> Option<u32> {
+    pub fn find(&self, name: &str) -> Option<Handle<PlannedPort>> {
         let place = tyndall_document::Place::Argument(String::new());
         self.planned(self.graph.find(name, place).ok()?)
     }
 
     /// Position of a pass of the graph; `None` where it does not run.
-    pub fn position(&self, index: u32) -> Option<u32> {
-        Some(self.positions[index as usize]).filter(|position| *position != NONE)
+    pub fn position(&self, pass: Handle<Pass>) -> Option<Handle<PlannedPass>> {
+        self.positions[pass]
     }
 
     /// The ports that a slot holds one after the other, in order; none of a constant slot that stands for no port.
-    pub fn ports_in(&self, slot: u32) -> impl Iterator<Item = u32> + '_ {
-        let first = Some(self.slots[slot as usize].first_port).filter(|port| *port != NONE);
-        std::iter::successors(first, |port| Some(self.ports[*port as usize].next_in_slot).filter(|port| *port != NONE))
+    pub fn ports_in(&self, slot: Handle<Slot>) -> impl Iterator<Item = Handle<PlannedPort>> + '_ {
+        std::iter::successors(self.slots[slot].first_port, |port| self.ports[*port].next_in_slot)
+    }
+
+    fn pass(&self, position: Handle<PlannedPass>) -> &Pass {
+        self.graph.pass(self.passes[position].pass)
     }
 }

@@ -1,52 +1,44 @@
 //! The order in which passes run.
 
 use super::Order;
-use crate::signature::RoleKind;
-use crate::table::Table;
+use crate::graph::Pass;
+use crate::handle::{Handle, Table};
+use crate::wiring::Wiring;
 
 /// The needed passes, each after those that it reads.
-pub(super) fn order(table: &Table, needed: &[bool], order: Order) -> Vec<u32> {
+pub(super) fn order(wiring: &Wiring, needed: &Table<Pass, bool>, order: Order) -> Vec<Handle<Pass>> {
     match order {
-        Order::File => table.order.iter().copied().filter(|pass| needed[*pass as usize]).collect(),
-        Order::Shuffled(seed) => shuffled(table, needed, seed),
+        Order::File => wiring.order.iter().copied().filter(|pass| needed[*pass]).collect(),
+        Order::Shuffled(seed) => shuffled(wiring, needed, seed),
     }
 }
 
 /// Draws one of the passes that are ready, again and again.
-fn shuffled(table: &Table, needed: &[bool], seed: u64) -> Vec<u32> {
-    let passes = table.passes() as usize;
-    let mut waits_for = vec![0u32; passes];
-    let mut readers: Vec<Vec<u32>> = vec![Vec::new(); passes];
-    for pass in (0..table.passes()).filter(|pass| needed[*pass as usize]) {
-        for source in sources(table, pass) {
-            readers[source as usize].push(pass);
-            waits_for[pass as usize] += 1;
+fn shuffled(wiring: &Wiring, needed: &Table<Pass, bool>, seed: u64) -> Vec<Handle<Pass>> {
+    let mut waits_for = needed.column(0u32);
+    let mut readers: Table<Pass, Vec<Handle<Pass>>> = needed.column(Vec::new());
+    for pass in needed.handles().filter(|pass| needed[*pass]) {
+        // A pass waits once for each port that it reads.
+        for source in wiring.sources(pass) {
+            readers[wiring.pass_of[source]].push(pass);
+            waits_for[pass] += 1;
         }
     }
-    let is_ready = |pass: &u32| needed[*pass as usize] && waits_for[*pass as usize] == 0;
-    let mut ready: Vec<u32> = (0..table.passes()).filter(is_ready).collect();
+    let is_ready = |pass: &Handle<Pass>| needed[*pass] && waits_for[*pass] == 0;
+    let mut ready: Vec<Handle<Pass>> = needed.handles().filter(is_ready).collect();
     let mut random = Random(seed);
-    let mut order = Vec::with_capacity(passes);
+    let mut order = Vec::with_capacity(needed.len());
     while !ready.is_empty() {
         let pass = ready.swap_remove(random.below(ready.len()));
         order.push(pass);
-        for reader in &readers[pass as usize] {
-            waits_for[*reader as usize] -= 1;
-            if waits_for[*reader as usize] == 0 {
+        for reader in &readers[pass] {
+            waits_for[*reader] -= 1;
+            if waits_for[*reader] == 0 {
                 ready.push(*reader);
             }
         }
     }
     order
-}
-
-/// The passes that a pass waits for, once for each port that it reads.
-fn sources(table: &Table, pass: u32) -> impl Iterator<Item = u32> + '_ {
-    let ports = table.ports(pass).zip(&table.kind(pass).signature.ports);
-    ports.filter(|(_, port)| !matches!(port.role, RoleKind::History | RoleKind::Output)).filter_map(|(port, _)| {
-        let source = table.feeds[port as usize].as_port()?;
-        Some(table.pass_of[source as usize])
-    })
 }
 
 /// SplitMix64 (Steele, Lea, Flood 2014): enough to draw an order.

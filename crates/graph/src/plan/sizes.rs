@@ -1,11 +1,15 @@
 //! How large every port is.
 
-use crate::graph::{Graph, ParamRef};
-use crate::signature::{Amount, RoleKind, Rule, Signature};
-use crate::table::{Feed, Table};
+use crate::graph::{Graph, ParamRef, Pass, PortRef};
+use crate::handle::{Handle, Table};
+use crate::signature::{Amount, PortSignature, RoleKind, Rule};
+use crate::wiring::{Feeds, GraphPort};
 
 /// Width, height, depth or layers. All 0: a mistake hides it.
 pub(crate) type Size = [u32; 3];
+
+/// The size of every port.
+pub(crate) type Sizes = Table<GraphPort, Size>;
 
 const UNKNOWN: Size = [0; 3];
 
@@ -13,23 +17,22 @@ const UNKNOWN: Size = [0; 3];
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SizeProblem {
     /// An input demands another size than it is fed.
-    Differs { port: u32, fed: Size, demanded: Size },
+    Differs { port: PortRef, fed: Size, demanded: Size },
     /// A parameter that sets a size is below 1 or beyond 32 bits.
-    Param { pass: u32, param: u32, value: i64 },
+    Param { param: ParamRef, value: i64 },
     /// A file parameter that sets a size names no picture whose size is known.
-    Picture { pass: u32, param: u32 },
+    Picture { param: ParamRef },
 }
 
-/// The size of every port by its number, and what is wrong with them.
+/// The size of every port, and what is wrong with them.
 ///
-/// `feeds` is the table's, or that of the graph as written with every pass switched on.
-pub(crate) fn sizes(graph: &Graph, feeds: &[Feed], frame: (u32, u32)) -> (Vec<Size>, Vec<SizeProblem>) {
-    let table = &graph.table;
-    let mut resolver = Resolver { graph, feeds, frame, sizes: vec![UNKNOWN; feeds.len()], problems: Vec::new() };
-    for pass in &table.order {
+/// `feeds` is that of the graph, or of the graph as written with every pass switched on.
+pub(crate) fn sizes(graph: &Graph, feeds: &Feeds, frame: (u32, u32)) -> (Sizes, Vec<SizeProblem>) {
+    let mut resolver = Resolver { graph, feeds, frame, sizes: feeds.column(UNKNOWN), problems: Vec::new() };
+    for pass in &graph.wiring.order {
         resolver.pass(*pass);
     }
-    for port in &table.history {
+    for port in &graph.wiring.history {
         resolver.history(*port);
     }
     (resolver.sizes, resolver.problems)
@@ -37,93 +40,86 @@ pub(crate) fn sizes(graph: &Graph, feeds: &[Feed], frame: (u32, u32)) -> (Vec<Si
 
 struct Resolver<'a> {
     graph: &'a Graph,
-    feeds: &'a [Feed],
+    feeds: &'a Feeds,
     frame: (u32, u32),
-    sizes: Vec<Size>,
+    sizes: Sizes,
     problems: Vec<SizeProblem>,
 }
 
 impl Resolver<'_> {
-    fn pass(&mut self, pass: u32) {
-        let table = &self.graph.table;
-        let signature = &table.kind(pass).signature;
-        let first = table.first_port[pass as usize];
-        for index in &signature.size_order {
-            let port = first + index;
-            self.sizes[port as usize] = self.port(pass, first, port, signature, *index);
+    fn pass(&mut self, pass: Handle<Pass>) {
+        let signature = &self.graph.wiring.kind(pass).signature;
+        for port in &signature.size_order {
+            let number = self.graph.wiring.ports[pass].at(*port);
+            self.sizes[number] = self.port(pass, number, &signature.ports[*port]);
         }
-        for index in &signature.demands {
-            if signature.ports[*index as usize].role != RoleKind::History {
-                self.demand(table, pass, first + index, *index);
+        for port in &signature.demands {
+            let of_port = &signature.ports[*port];
+            if of_port.role != RoleKind::History {
+                self.demand(PortRef { pass, port: *port }, of_port);
             }
         }
     }
 
-    fn port(&mut self, pass: u32, first: u32, port: u32, signature: &Signature, index: u32) -> Size {
-        let of_port = &signature.ports[index as usize];
-        if of_port.role != RoleKind::Output {
-            match self.feeds[port as usize].number() {
-                Some(source) if source != port => return self.sizes[source as usize],
+    fn port(&mut self, pass: Handle<Pass>, number: Handle<GraphPort>, port: &PortSignature) -> Size {
+        if port.role != RoleKind::Output {
+            match self.feeds[number].like() {
+                Some(source) if source != number => return self.sizes[source],
                 None => return UNKNOWN,
                 Some(_) => {}
             }
         }
-        let rule = of_port.rule.as_ref().unwrap_or(&Rule::Frame);
-        self.evaluate(pass, first, rule, of_port.axes)
+        self.evaluate(pass, port.rule.as_ref().unwrap_or(&Rule::Frame), port.axes)
     }
 
-    fn history(&mut self, port: u32) {
-        let table = &self.graph.table;
-        let pass = table.pass_of[port as usize];
-        let index = port - table.first_port[pass as usize];
-        if let Some(source) = self.feeds[port as usize].number() {
-            self.sizes[port as usize] = self.sizes[source as usize];
+    fn history(&mut self, number: Handle<GraphPort>) {
+        let port = self.graph.wiring.port_ref(number);
+        if let Some(source) = self.feeds[number].like() {
+            self.sizes[number] = self.sizes[source];
         }
-        if table.kind(pass).signature.ports[index as usize].rule.is_some() {
-            self.demand(table, pass, port, index);
-        }
+        self.demand(port, self.graph.wiring.signature(port));
     }
 
-    fn demand(&mut self, table: &Table, pass: u32, port: u32, index: u32) {
-        let of_port = &table.kind(pass).signature.ports[index as usize];
+    fn demand(&mut self, port: PortRef, of_port: &PortSignature) {
         let (Some(rule), axes) = (of_port.rule.as_ref(), of_port.axes) else { return };
-        let fed = self.sizes[port as usize];
-        if fed == UNKNOWN || self.feeds[port as usize].number() == Some(port) {
+        let number = self.graph.wiring.port(port);
+        let fed = self.sizes[number];
+        if fed == UNKNOWN || self.feeds[number].like() == Some(number) {
             return;
         }
-        let demanded = self.evaluate(pass, table.first_port[pass as usize], rule, axes);
+        let demanded = self.evaluate(port.pass, rule, axes);
         if demanded != UNKNOWN && demanded != cut(fed, axes) {
             self.problems.push(SizeProblem::Differs { port, fed, demanded });
         }
     }
 
-    fn evaluate(&mut self, pass: u32, first: u32, rule: &Rule, axes: u32) -> Size {
+    fn evaluate(&mut self, pass: Handle<Pass>, rule: &Rule, axes: usize) -> Size {
         match rule {
             Rule::Frame => cut([self.frame.0, self.frame.1, 1], axes),
-            Rule::Same(other) => cut(self.sizes[(first + other) as usize], axes),
-            Rule::Other(amounts) => self.amounts(pass, first, amounts, axes),
+            Rule::Same(other) => cut(self.sizes[self.graph.wiring.ports[pass].at(*other)], axes),
+            Rule::Other(amounts) => self.amounts(pass, amounts, axes),
         }
     }
 
-    fn amounts(&mut self, pass: u32, first: u32, amounts: &[Amount; 3], axes: u32) -> Size {
+    fn amounts(&mut self, pass: Handle<Pass>, amounts: &[Amount; 3], axes: usize) -> Size {
         let mut size = [1; 3];
-        for (extent, amount) in size.iter_mut().zip(amounts).take(axes as usize) {
+        for (extent, amount) in size.iter_mut().zip(amounts).take(axes) {
             *extent = match *amount {
                 Amount::Fixed(texels) => texels,
-                Amount::Frame(axis, scale) => scaled([self.frame.0, self.frame.1, 1][axis], scale),
+                Amount::Frame(axis, scale) => scaled(axis.of([self.frame.0, self.frame.1, 1]), scale),
                 Amount::FramePixels(scale) => pixels(self.frame, scale),
                 Amount::Port(other, axis, scale) => {
-                    let other = self.sizes[(first + other) as usize];
+                    let other = self.sizes[self.graph.wiring.ports[pass].at(other)];
                     if other == UNKNOWN {
                         return UNKNOWN;
                     }
-                    scaled(other[axis], scale)
+                    scaled(axis.of(other), scale)
                 }
-                Amount::Param(param) => self.param(pass, param),
+                Amount::Param(param) => self.param(ParamRef { pass, param }),
                 Amount::Picture(param, axis) => match self.graph.pictures.get(&ParamRef { pass, param }) {
-                    Some(&(width, height)) => [width, height, 1][axis],
+                    Some(&(width, height)) => axis.of([width, height, 1]),
                     None => {
-                        self.problem(SizeProblem::Picture { pass, param });
+                        self.problem(SizeProblem::Picture { param: ParamRef { pass, param } });
                         return UNKNOWN;
                     }
                 },
@@ -132,10 +128,10 @@ impl Resolver<'_> {
         size
     }
 
-    fn param(&mut self, pass: u32, param: u32) -> u32 {
-        let value = self.graph.size_param(pass, param);
+    fn param(&mut self, param: ParamRef) -> u32 {
+        let value = self.graph.size_param(param);
         u32::try_from(value).ok().filter(|extent| *extent > 0).unwrap_or_else(|| {
-            self.problem(SizeProblem::Param { pass, param, value });
+            self.problem(SizeProblem::Param { param, value });
             1
         })
     }
@@ -148,7 +144,7 @@ impl Resolver<'_> {
 }
 
 /// The extents that mean something, and 1 in place of the others.
-fn cut(size: Size, axes: u32) -> Size {
+fn cut(size: Size, axes: usize) -> Size {
     if size == UNKNOWN {
         return UNKNOWN;
     }

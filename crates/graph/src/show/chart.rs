@@ -5,7 +5,8 @@ use std::fmt::Write;
 use super::layout::text_width;
 use super::names::{byte_words, kind_words, readers};
 use super::svg::{GREY, escaped, slot_colours};
-use crate::plan::{Plan, SlotKind};
+use crate::handle::{Handle, Table};
+use crate::plan::{Plan, PlannedPass, PlannedPort, Slot, SlotKind, Until};
 
 const ROW: f64 = 26.0;
 const LEFT: f64 = 26.0;
@@ -23,20 +24,20 @@ pub(super) struct Chart {
 
 /// Draws the chart from `top` on.
 pub(super) fn chart(plan: &Plan, top: f64) -> Chart {
-    let labels: Vec<String> = (0..plan.slots.len()).map(|slot| slot_label(plan, slot)).collect();
+    let labels: Table<Slot, String> = plan.slots.handles().map(|slot| slot_label(plan, slot)).collect();
     let names = labels.iter().map(|label| text_width(label)).fold(0.0, f64::max);
     let left = LEFT + names + 16.0;
     let passes = plan.passes.len();
     let longest = plan.ports.iter().map(|port| text_width(&plan.graph.port_name(port.port))).fold(40.0, f64::max);
     let step = (longest + 12.0).clamp(24.0, 110.0).min(WIDEST / passes.max(1) as f64);
-    let header = (0..passes).map(|pass| text_width(plan.pass_name(pass as u32))).fold(0.0, f64::max);
+    let header = plan.passes.handles().map(|position| text_width(plan.pass_name(position))).fold(0.0, f64::max);
     let slanted = header > step - 8.0;
     let first_row = top + 54.0 + if slanted { header * 0.65 } else { 0.0 };
     let mut chart = Drawing { plan, readers: readers(plan), text: String::new(), left, step, first_row };
     chart.title(top);
     chart.columns(slanted);
     let colours = slot_colours(plan);
-    for (slot, label) in labels.iter().enumerate() {
+    for (slot, label) in labels.entries() {
         chart.slot(slot, label, &colours[slot]);
     }
     let bottom = first_row + ROW * plan.slots.len() as f64 + 24.0;
@@ -44,14 +45,14 @@ pub(super) fn chart(plan: &Plan, top: f64) -> Chart {
     Chart { text: chart.text, width, bottom }
 }
 
-fn slot_label(plan: &Plan, slot: usize) -> String {
+fn slot_label(plan: &Plan, slot: Handle<Slot>) -> String {
     let of_slot = &plan.slots[slot];
     format!("{slot}  {}  {}", of_slot.resource, byte_words(of_slot.resource.bytes()))
 }
 
 struct Drawing<'a> {
     plan: &'a Plan,
-    readers: Vec<Vec<u32>>,
+    readers: Table<PlannedPort, Vec<Handle<PlannedPass>>>,
     text: String,
     left: f64,
     step: f64,
@@ -78,8 +79,8 @@ impl Drawing<'_> {
     }
 
     fn columns(&mut self, slanted: bool) {
-        for pass in 0..self.plan.passes.len() {
-            let x = self.left + self.step * pass as f64;
+        for position in self.plan.passes.handles() {
+            let x = self.left + self.step * position.index() as f64;
             let bottom = self.first_row + ROW * self.plan.slots.len() as f64;
             if self.step < NARROWEST {
                 continue;
@@ -92,35 +93,37 @@ impl Drawing<'_> {
                 "<line x1=\"{x:.1}\" y1=\"{:.1}\" x2=\"{x:.1}\" y2=\"{bottom:.1}\" stroke=\"#e2e8f0\"/>\
                  <text x=\"{text_x:.1}\" y=\"{text_y:.1}\" fill=\"#6b7280\" font-size=\"11\"{turn}>{}</text>",
                 self.first_row - 4.0,
-                escaped(self.plan.pass_name(pass as u32))
+                escaped(self.plan.pass_name(position))
             );
         }
     }
 
-    fn slot(&mut self, slot: usize, label: &str, colour: &str) {
-        let y = self.first_row + ROW * slot as f64;
+    fn slot(&mut self, slot: Handle<Slot>, label: &str, colour: &str) {
+        let y = self.first_row + ROW * slot.index() as f64;
         let _ = writeln!(self.text, "<text x=\"{LEFT}\" y=\"{:.1}\">{}</text>", y + 17.0, escaped(label));
         let kind = self.plan.slots[slot].kind;
         if matches!(kind, SlotKind::Constant(_) | SlotKind::History { .. }) {
             let words = kind_words(self.plan, kind);
             self.bar(0.0, self.plan.passes.len() as f64, y, (GREY, &words, &words));
         }
-        for port in self.plan.ports_in(slot as u32).filter(|port| self.plan.ports[*port as usize].pass.is_some()) {
-            let (first, last) = self.plan.ports[port as usize].lifetime;
-            let end = if last as usize == self.plan.passes.len() { 0.35 } else { 1.0 };
-            let name = self.plan.port_name(port);
-            let tip = format!("{name}: written at {}, read at {}", first + 1, numbers(&self.readers[port as usize]));
-            let end = self.free_end(port, f64::from(last) + end);
-            self.bar(f64::from(first), end, y, (colour, &name, &tip));
+        for port in self.plan.ports_in(slot) {
+            let PlannedPort { pass: Some(first), until, .. } = self.plan.ports[port] else { continue };
+            let end = match until {
+                Until::Pass(last) => last.index() as f64 + 1.0,
+                Until::End => self.plan.passes.len() as f64 + 0.35,
+            };
+            let (name, first) = (self.plan.port_name(port), first.index());
+            let tip = format!("{name}: written at {}, read at {}", first + 1, numbers(&self.readers[port]));
+            self.bar(first as f64, self.free_end(port, end), y, (colour, &name, &tip));
         }
     }
 
     /// Where the bar of a port ends: before the next version made in place, if that is in the same slot.
-    fn free_end(&self, port: u32, end: f64) -> f64 {
-        let slot = self.plan.ports[port as usize].slot;
+    fn free_end(&self, port: Handle<PlannedPort>, end: f64) -> f64 {
+        let slot = self.plan.ports[port].slot;
         let next = self.plan.ports_in(slot).skip_while(|other| *other != port).nth(1);
-        match next.map(|next| &self.plan.ports[next as usize]) {
-            Some(next) if next.in_place => f64::from(next.lifetime.0),
+        match next.map(|next| &self.plan.ports[next]) {
+            Some(PlannedPort { in_place: true, pass: Some(first), .. }) => first.index() as f64,
             _ => end,
         }
     }
@@ -144,9 +147,9 @@ impl Drawing<'_> {
     }
 }
 
-fn numbers(positions: &[u32]) -> String {
+fn numbers(positions: &[Handle<PlannedPass>]) -> String {
     match positions {
         [] => "none".to_owned(),
-        _ => positions.iter().map(|position| (position + 1).to_string()).collect::<Vec<_>>().join(", "),
+        _ => positions.iter().map(|position| (position.index() + 1).to_string()).collect::<Vec<_>>().join(", "),
     }
 }

@@ -2,9 +2,8 @@
 
 use std::fmt::Write;
 
-use petgraph::visit::EdgeRef;
-
 use super::names::culled_words;
+use crate::graph::{Connection, PortRef};
 use crate::plan::Plan;
 
 /// A plan as a graph for Graphviz: passes with their position, connections with their ports; what does not run is grey.
@@ -12,12 +11,17 @@ pub fn dot(plan: &Plan) -> String {
     let graph = &plan.graph;
     let mut text = String::from("digraph plan {\n  rankdir = LR;\n  node [shape = box, fontname = \"sans-serif\"];\n");
     // Writing to a string cannot fail.
-    for index in 0..graph.passes.node_count() as u32 {
-        let pass = graph.pass(index);
+    for (index, pass) in graph.passes.entries() {
         let kind = &pass.descriptor().name;
         let _ = match plan.position(index) {
             Some(position) => {
-                writeln!(text, "  {} [label = \"{}  {}\\n{kind}\"];", quoted(&pass.name), position + 1, pass.name)
+                writeln!(
+                    text,
+                    "  {} [label = \"{}  {}\\n{kind}\"];",
+                    quoted(&pass.name),
+                    position.index() + 1,
+                    pass.name
+                )
             }
             None => {
                 let culled = plan
@@ -32,19 +36,15 @@ pub fn dot(plan: &Plan) -> String {
             }
         };
     }
-    let mut edges: Vec<_> = graph.passes.edge_references().collect();
-    edges.sort_by_key(|edge| edge.weight().span.start);
-    for edge in edges {
-        let (writer, reader) = (&graph.passes[edge.source()], &graph.passes[edge.target()]);
-        let from = &writer.descriptor().ports[edge.weight().from as usize].name;
-        let to = &reader.descriptor().ports[edge.weight().to as usize].name;
-        let runs = |pass: petgraph::graph::NodeIndex| plan.position(pass.index() as u32).is_some();
-        let style = match (runs(edge.source()) && runs(edge.target()), edge.weight().history) {
+    for Connection { from, to, history, .. } in &graph.connections {
+        let runs = |port: &PortRef| plan.position(port.pass).is_some();
+        let style = match (runs(from) && runs(to), history) {
             (false, _) => ", color = grey, fontcolor = grey",
             (true, true) => ", style = dashed, constraint = false",
             (true, false) => "",
         };
-        let (writer, reader) = (quoted(&writer.name), quoted(&reader.name));
+        let (writer, reader) = (quoted(&graph.pass(from.pass).name), quoted(&graph.pass(to.pass).name));
+        let (from, to) = (&graph.port(*from).name, &graph.port(*to).name);
         let _ = writeln!(text, "  {writer} -> {reader} [label = \"{from} → {to}\"{style}];");
     }
     for (name, port) in &graph.outputs {

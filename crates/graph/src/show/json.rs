@@ -3,15 +3,16 @@
 use serde_json::{Value, json};
 
 use super::names::culled_words;
-use crate::plan::{CullReason, Plan, PlannedPort, Resource, SlotKind, Step};
+use crate::handle::Handle;
+use crate::plan::{CullReason, Plan, PlannedPass, PlannedPort, Resource, Slot, SlotKind, Step, Until};
 
 /// A plan as JSON: everything that the text says, with indices as the plan has them.
 pub fn json(plan: &Plan) -> String {
     let value = json!({
         "size": [plan.size.0, plan.size.1],
-        "passes": (0..plan.passes.len() as u32).map(|position| pass(plan, position)).collect::<Vec<_>>(),
-        "ports": (0..plan.ports.len() as u32).map(|index| port(plan, index)).collect::<Vec<_>>(),
-        "slots": (0..plan.slots.len() as u32).map(|index| slot(plan, index)).collect::<Vec<_>>(),
+        "passes": plan.passes.handles().map(|position| pass(plan, position)).collect::<Vec<_>>(),
+        "ports": plan.ports.handles().map(|index| port(plan, index)).collect::<Vec<_>>(),
+        "slots": plan.slots.handles().map(|index| slot(plan, index)).collect::<Vec<_>>(),
         "steps": plan.steps.iter().map(|step| self::step(*step)).collect::<Vec<_>>(),
         "outputs": plan.outputs.iter().map(|(name, port)| json!({ "name": name, "port": plan.port_name(*port) })).collect::<Vec<_>>(),
         "culled": plan.culled.iter().map(|culled| json!({
@@ -24,33 +25,37 @@ pub fn json(plan: &Plan) -> String {
     format!("{value:#}\n")
 }
 
-fn pass(plan: &Plan, position: u32) -> Value {
+fn pass(plan: &Plan, position: Handle<PlannedPass>) -> Value {
     let descriptor = plan.descriptor(position);
     let names = descriptor.ports.iter().map(|port| &port.name);
     let bindings: Vec<Value> = names
         .zip(plan.bindings(position).iter().zip(plan.sources(position)))
-        .map(|(name, (slot, source))| json!({ "port": name, "slot": slot, "source": source.map(|port| plan.port_name(port)) }))
+        .map(|(name, (slot, source))| json!({ "port": name, "slot": slot.map(Handle::index), "source": source.map(|port| plan.port_name(port)) }))
         .collect();
-    let pass = plan.passes[position as usize];
-    json!({ "name": plan.pass_name(position), "use": descriptor.name, "volatile": pass.volatile, "bindings": bindings })
+    let volatile = plan.passes[position].volatile;
+    json!({ "name": plan.pass_name(position), "use": descriptor.name, "volatile": volatile, "bindings": bindings })
 }
 
-fn port(plan: &Plan, index: u32) -> Value {
-    let port: PlannedPort = plan.ports[index as usize];
+fn port(plan: &Plan, index: Handle<PlannedPort>) -> Value {
+    let port: PlannedPort = plan.ports[index];
+    let last = match port.until {
+        Until::Pass(position) => position.index(),
+        Until::End => plan.passes.len(),
+    };
     json!({
         "name": plan.port_name(index),
-        "pass": port.pass,
-        "slot": port.slot,
+        "pass": port.pass.map(Handle::index),
+        "slot": port.slot.index(),
         "class": port.class.to_string(),
-        "lifetime": [port.lifetime.0, port.lifetime.1],
+        "lifetime": [port.pass.map_or(0, Handle::index), last],
         "root": port.root,
         "kept": port.kept,
         "in_place": port.in_place,
     })
 }
 
-fn slot(plan: &Plan, index: u32) -> Value {
-    let slot = &plan.slots[index as usize];
+fn slot(plan: &Plan, index: Handle<Slot>) -> Value {
+    let slot = &plan.slots[index];
     let kind = match slot.kind {
         SlotKind::Transient => json!({ "kind": "transient" }),
         SlotKind::Kept => json!({ "kind": "kept" }),
@@ -78,9 +83,9 @@ fn resource(resource: Resource) -> Value {
 
 fn step(step: Step) -> Value {
     match step {
-        Step::Run { pass } => json!({ "run": pass }),
-        Step::Copy { pass, from, to } => json!({ "copy": [from, to], "for": pass }),
-        Step::Carry { from, to } => json!({ "carry": [from, to] }),
+        Step::Run { pass } => json!({ "run": pass.index() }),
+        Step::Copy { pass, from, to } => json!({ "copy": [from.index(), to.index()], "for": pass.index() }),
+        Step::Carry { from, to } => json!({ "carry": [from.index(), to.index()] }),
     }
 }
 

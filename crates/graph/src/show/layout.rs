@@ -1,10 +1,10 @@
 //! Where the boxes and lines of a drawing stand: passes in columns by depth, in the manner of Sugiyama, Tagawa and Toda
 //! (1981): longest paths give columns, lines that skip a column pass through it, averages of neighbours give the order.
 
-use petgraph::visit::EdgeRef;
 use rustc_hash::FxHashMap;
 
-use crate::graph::{Graph, PortRef};
+use crate::graph::{Graph, Pass, PortRef};
+use crate::handle::{Handle, Table};
 use crate::signature::RoleKind;
 
 const COLUMN_GAP: f64 = 90.0;
@@ -20,8 +20,7 @@ pub(super) type Point = (f64, f64);
 
 /// A drawing's geometry.
 pub(super) struct Layout {
-    /// By pass of the graph.
-    pub boxes: Vec<Rectangle>,
+    pub boxes: Table<Pass, Rectangle>,
     /// By output of the graph.
     pub tags: Vec<Rectangle>,
     pub lines: Vec<Line>,
@@ -53,7 +52,7 @@ pub(super) enum End {
 /// Something that has a place in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 enum Item {
-    Pass(u32),
+    Pass(Handle<Pass>),
     Output(usize),
     /// What a port writes passes through this column.
     Through(PortRef, usize),
@@ -70,7 +69,7 @@ pub(super) fn layout(graph: &Graph) -> Layout {
 struct Columns<'a> {
     graph: &'a Graph,
     columns: Vec<Vec<Item>>,
-    column_of: Vec<usize>,
+    column_of: Table<Pass, usize>,
     ends: Vec<(PortRef, End, bool)>,
     /// Items in neighbouring columns that a line joins, from left to right.
     joined: Vec<(Item, Item)>,
@@ -83,8 +82,8 @@ impl<'a> Columns<'a> {
         let column_of = depths(graph, &ends);
         let last = column_of.iter().max().map_or(0, |deepest| deepest + 1);
         let mut columns = vec![Vec::new(); last + 1];
-        for (pass, column) in column_of.iter().enumerate() {
-            columns[*column].push(Item::Pass(pass as u32));
+        for (pass, column) in column_of.entries() {
+            columns[*column].push(Item::Pass(pass));
         }
         let mut all = Self { graph, columns, column_of, ends, joined: Vec::new(), places: FxHashMap::default() };
         for output in 0..graph.outputs.len() {
@@ -103,7 +102,7 @@ impl<'a> Columns<'a> {
                 continue;
             }
             let mut before = Item::Pass(from.pass);
-            let start = self.column_of[from.pass as usize] + 1;
+            let start = self.column_of[from.pass] + 1;
             for column in start..self.column(to).max(start) {
                 let item = Item::Through(from, column);
                 if routed && !self.columns[column].contains(&item) {
@@ -130,7 +129,7 @@ impl<'a> Columns<'a> {
 
     fn column(&self, end: End) -> usize {
         match end {
-            End::Port(port) => self.column_of[port.pass as usize],
+            End::Port(port) => self.column_of[port.pass],
             End::Output(_) => self.columns.len() - 1,
         }
     }
@@ -229,11 +228,11 @@ impl<'a> Columns<'a> {
 
     fn layout(self) -> Layout {
         let place = |item: Item| self.places.get(&item).copied().unwrap_or_default();
-        let boxes: Vec<Rectangle> = (0..self.column_of.len()).map(|pass| place(Item::Pass(pass as u32))).collect();
+        let boxes: Table<Pass, Rectangle> = self.column_of.handles().map(|pass| place(Item::Pass(pass))).collect();
         let tags: Vec<Rectangle> = (0..self.graph.outputs.len()).map(|output| place(Item::Output(output))).collect();
         let lines = self.ends.iter().map(|(from, to, history)| {
             let mut points = vec![pin(self.graph, &boxes, *from, true)];
-            for column in self.column_of[from.pass as usize] + 1..self.column(*to) {
+            for column in self.column_of[from.pass] + 1..self.column(*to) {
                 if let (Some(place), false) = (self.places.get(&Item::Through(*from, column)), *history) {
                     points.extend([(place.x, place.y + 3.0), (place.x + place.width, place.y + 3.0)]);
                 }
@@ -253,36 +252,30 @@ impl<'a> Columns<'a> {
 
 /// Every connection and output, in file order.
 fn ends(graph: &Graph) -> Vec<(PortRef, End, bool)> {
-    let mut edges: Vec<_> = graph.passes.edge_references().collect();
-    edges.sort_by_key(|edge| edge.weight().span.start);
-    let connections = edges.into_iter().map(|edge| {
-        let from = PortRef { pass: edge.source().index() as u32, port: edge.weight().from };
-        let to = PortRef { pass: edge.target().index() as u32, port: edge.weight().to };
-        (from, End::Port(to), edge.weight().history)
-    });
+    let connections = graph.connections.iter();
+    let connections = connections.map(|connection| (connection.from, End::Port(connection.to), connection.history));
     let outputs = graph.outputs.iter().enumerate().map(|(index, (_, from))| (*from, End::Output(index), false));
     connections.chain(outputs).collect()
 }
 
 /// By pass, its column: one behind the deepest that it reads; what reads nothing stands before its first reader.
-fn depths(graph: &Graph, ends: &[(PortRef, End, bool)]) -> Vec<usize> {
-    let passes = graph.passes.node_count();
-    let mut read_by: Vec<Vec<u32>> = vec![Vec::new(); passes];
-    let mut reads = vec![false; passes];
+fn depths(graph: &Graph, ends: &[(PortRef, End, bool)]) -> Table<Pass, usize> {
+    let mut read_by: Table<Pass, Vec<Handle<Pass>>> = graph.passes.column(Vec::new());
+    let mut reads = graph.passes.column(false);
     for (from, to, history) in ends {
         if let (End::Port(to), false) = (to, *history) {
-            read_by[from.pass as usize].push(to.pass);
-            reads[to.pass as usize] = true;
+            read_by[from.pass].push(to.pass);
+            reads[to.pass] = true;
         }
     }
-    let mut depths = vec![0; passes];
-    for pass in &graph.table.order {
-        for reader in &read_by[*pass as usize] {
-            depths[*reader as usize] = depths[*reader as usize].max(depths[*pass as usize] + 1);
+    let mut depths: Table<Pass, usize> = graph.passes.column(0);
+    for pass in &graph.wiring.order {
+        for reader in &read_by[*pass] {
+            depths[*reader] = depths[*reader].max(depths[*pass] + 1);
         }
     }
-    for pass in 0..passes {
-        let nearest = read_by[pass].iter().map(|reader| depths[*reader as usize]).min();
+    for pass in graph.passes.handles() {
+        let nearest = read_by[pass].iter().map(|reader| depths[*reader]).min();
         if let (false, Some(nearest)) = (reads[pass], nearest) {
             depths[pass] = nearest - 1;
         }
@@ -295,7 +288,7 @@ fn average<T>(items: Option<&Vec<T>>, value: impl Fn(&T) -> f64) -> Option<f64> 
     Some(items.iter().map(value).sum::<f64>() / items.len() as f64)
 }
 
-fn box_size(graph: &Graph, pass: u32) -> Point {
+fn box_size(graph: &Graph, pass: Handle<Pass>) -> Point {
     let descriptor = graph.pass(pass).descriptor();
     let column = |wanted: fn(&crate::descriptor::Role) -> bool| {
         let names = descriptor.ports.iter().filter(|port| wanted(&port.role)).map(|port| text_width(&port.name));
@@ -308,17 +301,16 @@ fn box_size(graph: &Graph, pass: u32) -> Point {
 }
 
 /// Where a line meets a box.
-fn pin(graph: &Graph, boxes: &[Rectangle], port: PortRef, output: bool) -> Point {
-    let place = boxes[port.pass as usize];
-    let row = row(graph, port, output);
-    (if output { place.x + place.width } else { place.x }, place.y + HEADER + LINE * (row as f64 + 0.5))
+fn pin(graph: &Graph, boxes: &Table<Pass, Rectangle>, port: PortRef, output: bool) -> Point {
+    let place = boxes[port.pass];
+    (if output { place.x + place.width } else { place.x }, place.y + line_middle(row(graph, port, output)))
 }
 
 /// Which line of its side of the box a port has.
 pub(super) fn row(graph: &Graph, port: PortRef, output: bool) -> usize {
-    let ports = &graph.table.kind(port.pass).signature.ports[..port.port as usize];
+    let ports = &graph.wiring.kind(port.pass).signature.ports;
     let on_side = |role: RoleKind| if output { role.is_output() } else { role.is_input() };
-    ports.iter().filter(|port| on_side(port.role)).count()
+    ports.iter().take(port.port.index()).filter(|port| on_side(port.role)).count()
 }
 
 /// Height of the middle of a port's line below the top of its box.

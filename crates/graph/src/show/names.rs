@@ -1,6 +1,7 @@
 //! Words that several views of a plan share.
 
-use crate::plan::{CullReason, Culled, Plan, SlotKind};
+use crate::handle::{Handle, Table};
+use crate::plan::{CullReason, Culled, Plan, PlannedPass, PlannedPort, SlotKind};
 
 /// `1.5 MiB`, exact below 1 KiB.
 pub fn byte_words(bytes: u64) -> String {
@@ -41,7 +42,7 @@ pub fn culled_words(plan: &Plan, culled: &Culled) -> String {
 pub(crate) fn asked_for(plan: &Plan) -> String {
     const MOST: usize = 8;
     let mut names: Vec<String> = plan.outputs.iter().map(|(name, _)| name.clone()).collect();
-    let is_output = |root: &&u32| plan.outputs.iter().any(|(_, port)| port == *root);
+    let is_output = |root: &&Handle<PlannedPort>| plan.outputs.iter().any(|(_, port)| port == *root);
     names.extend(plan.roots.iter().filter(|root| !is_output(root)).take(MOST).map(|root| plan.port_name(*root)));
     let left = names.len().saturating_sub(MOST);
     names.truncate(MOST);
@@ -73,12 +74,12 @@ pub(crate) fn value_words(value: [f32; 4]) -> String {
     format!("({})", parts.join(", "))
 }
 
-/// By planned port: positions of the passes that read it in this frame, in order, each once.
-pub(crate) fn readers(plan: &Plan) -> Vec<Vec<u32>> {
-    let mut readers = vec![Vec::new(); plan.ports.len()];
-    for position in 0..plan.passes.len() as u32 {
+/// Positions of the passes that read each port in this frame, in order, each once.
+pub(crate) fn readers(plan: &Plan) -> Table<PlannedPort, Vec<Handle<PlannedPass>>> {
+    let mut readers = plan.ports.column(Vec::new());
+    for position in plan.passes.handles() {
         for source in plan.sources(position).iter().flatten() {
-            let readers: &mut Vec<u32> = &mut readers[*source as usize];
+            let readers: &mut Vec<Handle<PlannedPass>> = &mut readers[*source];
             if readers.last() != Some(&position) {
                 readers.push(position);
             }

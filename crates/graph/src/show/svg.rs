@@ -6,13 +6,16 @@ use std::fmt::Write;
 use super::chart;
 use super::layout::{End, Layout, Line, Point, Rectangle, layout, line_middle, row};
 use super::names::{byte_words, culled_words, kind_words};
-use crate::graph::PortRef;
-use crate::plan::Plan;
+use crate::graph::{Pass, PortRef};
+use crate::handle::{Handle, Table};
+use crate::plan::{Plan, Slot};
 use crate::signature::RoleKind;
 
 pub(super) const GREY: &str = "#b4b8bf";
 const TEXT: &str = "#1d2330";
 const FAINT: &str = "#6b7280";
+
+pub(super) type Colours = Table<Slot, String>;
 
 /// A plan as an SVG file.
 pub fn svg(plan: &Plan) -> String {
@@ -32,8 +35,8 @@ pub fn svg(plan: &Plan) -> String {
     for line in &layout.lines {
         draw_line(&mut text, plan, line, &layout, &colours);
     }
-    for (pass, place) in layout.boxes.iter().enumerate() {
-        draw_box(&mut text, plan, pass as u32, *place, &colours);
+    for (pass, place) in layout.boxes.entries() {
+        draw_box(&mut text, plan, pass, *place, &colours);
     }
     for (output, place) in layout.tags.iter().enumerate() {
         draw_tag(&mut text, plan, output, *place);
@@ -43,10 +46,10 @@ pub fn svg(plan: &Plan) -> String {
     text
 }
 
-/// By slot: a colour of its own where ports share it, a common one otherwise.
-pub(super) fn slot_colours(plan: &Plan) -> Vec<String> {
+/// A colour for each slot: one of its own where ports share it, a common one otherwise.
+pub(super) fn slot_colours(plan: &Plan) -> Colours {
     let mut shared = 0;
-    let colour = |slot: u32| {
+    let colour = |slot: Handle<Slot>| {
         if plan.ports_in(slot).nth(1).is_none() {
             return "#64748b".to_owned();
         }
@@ -55,23 +58,23 @@ pub(super) fn slot_colours(plan: &Plan) -> Vec<String> {
         let hue = (205.0 + 137.508 * f64::from(shared - 1)) % 360.0;
         format!("hsl({hue:.0}, 62%, 43%)")
     };
-    (0..plan.slots.len() as u32).map(colour).collect()
+    plan.slots.handles().map(colour).collect()
 }
 
-fn colour_of(plan: &Plan, port: PortRef, colours: &[String]) -> Option<(u32, String)> {
-    let planned = plan.planned(port).filter(|planned| plan.ports[*planned as usize].port == port)?;
-    let slot = plan.ports[planned as usize].slot;
-    Some((slot, colours[slot as usize].clone()))
+fn colour_of(plan: &Plan, port: PortRef, colours: &Colours) -> Option<(Handle<Slot>, String)> {
+    let planned = plan.planned(port).filter(|planned| plan.ports[*planned].port == port)?;
+    let slot = plan.ports[planned].slot;
+    Some((slot, colours[slot].clone()))
 }
 
-fn draw_line(text: &mut String, plan: &Plan, line: &Line, layout: &Layout, colours: &[String]) {
+fn draw_line(text: &mut String, plan: &Plan, line: &Line, layout: &Layout, colours: &Colours) {
     let runs = match line.to {
         End::Port(to) => plan.position(to.pass).is_some(),
         End::Output(_) => true,
     };
     // What flows where a pass is off has the colour of the slot that it comes from.
-    let slot = plan.planned(line.from).filter(|_| runs).map(|planned| plan.ports[planned as usize].slot);
-    let colour = slot.map_or(GREY, |slot| &colours[slot as usize]);
+    let slot = plan.planned(line.from).filter(|_| runs).map(|planned| plan.ports[planned].slot);
+    let colour = slot.map_or(GREY, |slot| &colours[slot]);
     let to = match line.to {
         End::Port(to) => plan.graph.port_name(to),
         End::Output(output) => plan.graph.outputs[output].0.clone(),
@@ -104,7 +107,7 @@ fn along(points: &[Point]) -> String {
 /// A line that goes back below the boxes.
 fn back(line: &Line, layout: &Layout) -> String {
     let ((x0, y0), (x1, y1)) = (line.points[0], line.points[line.points.len() - 1]);
-    let bottom = |pass: u32| layout.boxes[pass as usize].y + layout.boxes[pass as usize].height;
+    let bottom = |pass: Handle<Pass>| layout.boxes[pass].y + layout.boxes[pass].height;
     let low = match line.to {
         End::Port(to) => bottom(line.from.pass).max(bottom(to.pass)) + 12.0,
         End::Output(_) => y0,
@@ -116,7 +119,7 @@ fn back(line: &Line, layout: &Layout) -> String {
     )
 }
 
-fn draw_box(text: &mut String, plan: &Plan, pass: u32, place: Rectangle, colours: &[String]) {
+fn draw_box(text: &mut String, plan: &Plan, pass: Handle<Pass>, place: Rectangle, colours: &Colours) {
     let of_pass = plan.graph.pass(pass);
     let position = plan.position(pass);
     let culled = plan.culled.binary_search_by_key(&pass, |culled| culled.pass).ok().map(|index| &plan.culled[index]);
@@ -148,10 +151,10 @@ fn draw_box(text: &mut String, plan: &Plan, pass: u32, place: Rectangle, colours
             "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\" font-size=\"11\" fill=\"{FAINT}\">{}</text>",
             x + width - 10.0,
             y + 18.0,
-            position + 1
+            position.index() + 1
         );
     }
-    for port in 0..of_pass.descriptor().ports.len() as u32 {
+    for port in of_pass.descriptor().ports.handles() {
         draw_port(text, plan, PortRef { pass, port }, place, (ink, faint), colours);
     }
     text.push_str("</g>\n");
@@ -163,15 +166,15 @@ fn draw_port(
     port: PortRef,
     place: Rectangle,
     (ink, faint): (&str, &str),
-    colours: &[String],
+    colours: &Colours,
 ) {
-    let role = plan.graph.table.kind(port.pass).signature.ports[port.port as usize].role;
+    let role = plan.graph.wiring.signature(port).role;
     let descriptor = plan.graph.port(port);
     if role.is_input() {
         let y = place.y + line_middle(row(&plan.graph, port, false));
         let unfed = plan
             .position(port.pass)
-            .is_some_and(|position| role == RoleKind::Optional && plan.sources(position)[port.port as usize].is_none());
+            .is_some_and(|position| role == RoleKind::Optional && plan.sources(position)[port.port].is_none());
         let ink = if unfed { faint } else { ink };
         let _ = writeln!(
             text,
@@ -189,7 +192,7 @@ fn draw_port(
         let slot = colour_of(plan, port, colours);
         let colour = slot.as_ref().map_or(GREY, |(_, colour)| colour);
         let tip = slot.as_ref().map(|(slot, _)| {
-            let of_slot = &plan.slots[*slot as usize];
+            let of_slot = &plan.slots[*slot];
             let kind = kind_words(plan, of_slot.kind);
             format!("slot {slot}: {}, {}, {kind}", of_slot.resource, byte_words(of_slot.resource.bytes()))
         });

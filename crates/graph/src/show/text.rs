@@ -3,7 +3,9 @@
 use std::fmt::{self, Write};
 
 use super::names::{asked_for, byte_words, culled_words, kind_words, readers};
-use crate::plan::{Plan, SlotKind};
+use crate::descriptor::PortDescriptor;
+use crate::handle::Handle;
+use crate::plan::{Plan, PlannedPass, PlannedPort, SlotKind, Until};
 use crate::signature::RoleKind;
 
 /// Widest chart of lifetimes, in passes; beyond it they are given as numbers.
@@ -18,7 +20,7 @@ pub fn text(plan: &Plan) -> String {
 }
 
 fn write_plan(text: &mut String, plan: &Plan) -> fmt::Result {
-    let (runs, all) = (plan.passes.len(), plan.graph.passes.node_count());
+    let (runs, all) = (plan.passes.len(), plan.graph.passes.len());
     writeln!(text, "frame {}×{}, {runs} of {all} passes run", plan.size.0, plan.size.1)?;
     write_order(text, plan)?;
     write_culled(text, plan)?;
@@ -30,28 +32,31 @@ fn write_plan(text: &mut String, plan: &Plan) -> fmt::Result {
 
 fn write_order(text: &mut String, plan: &Plan) -> fmt::Result {
     writeln!(text, "\norder")?;
-    let name_width = widest((0..plan.passes.len()).map(|pass| plan.pass_name(pass as u32)));
-    let kind_width = widest((0..plan.passes.len()).map(|pass| plan.descriptor(pass as u32).name.as_str()));
+    let name_width = widest(plan.passes.handles().map(|position| plan.pass_name(position)));
+    let kind_width = widest(plan.passes.handles().map(|position| plan.descriptor(position).name.as_str()));
     let keeps = plan.passes.iter().any(|pass| !pass.volatile);
-    for position in 0..plan.passes.len() as u32 {
+    for position in plan.passes.handles() {
         let (name, kind) = (plan.pass_name(position), &plan.descriptor(position).name);
-        let once = if keeps && !plan.passes[position as usize].volatile { "  (once)" } else { "" };
-        let line =
-            format!("{:>4}  {name:name_width$}  {kind:kind_width$}  {}{once}", position + 1, reads(plan, position));
+        let once = if keeps && !plan.passes[position].volatile { "  (once)" } else { "" };
+        let line = format!(
+            "{:>4}  {name:name_width$}  {kind:kind_width$}  {}{once}",
+            position.index() + 1,
+            reads(plan, position)
+        );
         writeln!(text, "{}", line.trim_end())?;
     }
     Ok(())
 }
 
 /// What a pass reads: ports, constants, history, copies.
-fn reads(plan: &Plan, position: u32) -> String {
+fn reads(plan: &Plan, position: Handle<PlannedPass>) -> String {
     let descriptor = plan.descriptor(position);
-    let signature = &plan.graph.table.kind(plan.passes[position as usize].index).signature;
+    let signature = &plan.graph.wiring.kind(plan.passes[position].pass).signature;
     let mut words = Vec::new();
-    for (index, port) in descriptor.ports.iter().enumerate() {
+    for (index, port) in descriptor.ports.entries() {
         let role = signature.ports[index].role;
         let source = plan.sources(position)[index].map(|source| plan.port_name(source));
-        let slot = plan.bindings(position)[index].map(|slot| plan.slots[slot as usize].kind);
+        let slot = plan.bindings(position)[index].map(|slot| plan.slots[slot].kind);
         words.push(match (role, source, slot) {
             (RoleKind::Output, ..) => continue,
             (RoleKind::InOut, source, _) => {
@@ -73,9 +78,9 @@ fn reads(plan: &Plan, position: u32) -> String {
     words.join(", ")
 }
 
-fn in_place(plan: &Plan, position: u32, index: usize) -> bool {
-    let written = plan.outputs_of(position).find(|port| plan.ports[*port as usize].port.port as usize == index);
-    written.is_some_and(|port| plan.ports[port as usize].in_place)
+fn in_place(plan: &Plan, position: Handle<PlannedPass>, index: Handle<PortDescriptor>) -> bool {
+    let mut written = plan.outputs_of(position).map(|port| &plan.ports[port]);
+    written.any(|port| port.port.port == index && port.in_place)
 }
 
 fn write_culled(text: &mut String, plan: &Plan) -> fmt::Result {
@@ -94,11 +99,11 @@ fn write_culled(text: &mut String, plan: &Plan) -> fmt::Result {
 fn write_memory(text: &mut String, plan: &Plan) -> fmt::Result {
     let readers = readers(plan);
     let shown = |kind: SlotKind| matches!(kind, SlotKind::Transient | SlotKind::Kept);
-    let ports = plan.ports.iter().filter(|port| shown(plan.slots[port.slot as usize].kind));
+    let ports = plan.ports.iter().filter(|port| shown(plan.slots[port.slot].kind));
     let names: Vec<String> = ports.map(|port| plan.graph.port_name(port.port)).collect();
     let width = widest(names.iter().map(String::as_str));
     writeln!(text, "\nmemory  (● written, ○ read, ▶ to the end of the frame)")?;
-    for (index, slot) in plan.slots.iter().enumerate().filter(|(_, slot)| shown(slot.kind)) {
+    for (index, slot) in plan.slots.entries().filter(|(_, slot)| shown(slot.kind)) {
         let kept = if slot.kind == SlotKind::Kept { ", kept across frames" } else { "" };
         writeln!(
             text,
@@ -107,35 +112,30 @@ fn write_memory(text: &mut String, plan: &Plan) -> fmt::Result {
             byte_words(slot.resource.bytes()),
             slot.usages
         )?;
-        for port in plan.ports_in(index as u32) {
-            let chart = chart(plan, port, &readers[port as usize]);
+        for port in plan.ports_in(index) {
+            let chart = chart(plan, &plan.ports[port], &readers[port]);
             writeln!(text, "      {:width$}  {chart}", plan.port_name(port))?;
         }
     }
     Ok(())
 }
 
-fn chart(plan: &Plan, port: u32, readers: &[u32]) -> String {
-    let (first, last) = plan.ports[port as usize].lifetime;
-    let passes = plan.passes.len();
-    let to_end = last as usize == passes;
-    if passes > WIDEST_CHART {
-        let last = if to_end { "end".to_owned() } else { (last + 1).to_string() };
-        return format!("{} to {last}", first + 1);
+fn chart(plan: &Plan, port: &PlannedPort, readers: &[Handle<PlannedPass>]) -> String {
+    if plan.passes.len() > WIDEST_CHART {
+        let last = match port.until {
+            Until::Pass(last) => (last.index() + 1).to_string(),
+            Until::End => "end".to_owned(),
+        };
+        return format!("{} to {last}", port.pass.map_or(0, Handle::index) + 1);
     }
-    let mut chart: Vec<char> = vec!['·'; passes];
-    for (position, mark) in chart.iter_mut().enumerate() {
-        let alive = position >= first as usize && position <= last as usize;
-        *mark = if alive { '━' } else { '·' };
-    }
-    for reader in readers {
-        chart[*reader as usize] = '○';
-    }
-    if let Some(mark) = chart.get_mut(first as usize) {
-        *mark = '●';
-    }
-    chart.push(if to_end { '▶' } else { ' ' });
-    chart.into_iter().collect::<String>().trim_end().to_owned()
+    let mark = |position| match position {
+        _ if port.pass == Some(position) => '●',
+        _ if readers.contains(&position) => '○',
+        _ if port.pass < Some(position) && Until::Pass(position) <= port.until => '━',
+        _ => '·',
+    };
+    let end = if port.until == Until::End { '▶' } else { ' ' };
+    plan.passes.handles().map(mark).chain([end]).collect::<String>().trim_end().to_owned()
 }
 
 /// Constants and history.
@@ -145,7 +145,7 @@ fn write_standing(text: &mut String, plan: &Plan) -> fmt::Result {
         return Ok(());
     }
     writeln!(text, "\nstanding")?;
-    for (index, slot) in plan.slots.iter().enumerate().filter(|(_, slot)| standing(slot.kind)) {
+    for (index, slot) in plan.slots.entries().filter(|(_, slot)| standing(slot.kind)) {
         let (kind, bytes) = (kind_words(plan, slot.kind), byte_words(slot.resource.bytes()));
         writeln!(text, "  slot {index}: {}, {bytes}: {kind}", slot.resource)?;
     }

@@ -8,9 +8,9 @@ use crate::file::is_name;
 pub(super) fn check_names(descriptor: &PassDescriptor, errors: &mut Vec<DescriptorError>) {
     let bad = !descriptor.name.split('.').all(is_name);
     errors.extend(bad.then(|| DescriptorError::BadName(descriptor.name.clone())));
-    for (index, port) in descriptor.ports.iter().enumerate() {
+    for (index, port) in descriptor.ports.entries() {
         errors.extend((!is_name(&port.name)).then(|| DescriptorError::BadName(port.name.clone())));
-        let twice = descriptor.ports[..index].iter().any(|other| other.name == port.name);
+        let twice = descriptor.port_named(&port.name) != Some(index);
         errors.extend(twice.then(|| DescriptorError::DuplicatePort(port.name.clone())));
     }
     for (index, preset) in descriptor.presets.iter().enumerate() {
@@ -19,9 +19,9 @@ pub(super) fn check_names(descriptor: &PassDescriptor, errors: &mut Vec<Descript
         let why = || "stands twice".to_owned();
         errors.extend(twice.then(|| DescriptorError::BadPreset { preset: preset.name.clone(), why: why() }));
     }
-    for (index, param) in descriptor.params.iter().enumerate() {
+    for (index, param) in descriptor.params.entries() {
         errors.extend((!is_name(&param.name)).then(|| DescriptorError::BadName(param.name.clone())));
-        let twice = descriptor.params[..index].iter().any(|other| other.name == param.name);
+        let twice = descriptor.param_named(&param.name) != Some(index);
         errors.extend(twice.then(|| DescriptorError::DuplicateParam(param.name.clone())));
     }
 }
@@ -38,14 +38,15 @@ pub(super) fn check_default(param: &ParamDescriptor, errors: &mut Vec<Descriptor
 
 /// Each preset is one that the parameter [`PRESET`] can choose, and gives values that its parameters may have.
 pub(super) fn check_presets(descriptor: &PassDescriptor, errors: &mut Vec<DescriptorError>) {
-    let choices = descriptor.param(PRESET).map(|param| param.choices.as_slice()).unwrap_or_default();
+    let param_named = |name: &str| descriptor.param_named(name).map(|param| &descriptor.params[param]);
+    let choices = param_named(PRESET).map(|param| param.choices.as_slice()).unwrap_or_default();
     for preset in &descriptor.presets {
         let mut wrong = |why: String| errors.push(DescriptorError::BadPreset { preset: preset.name.clone(), why });
         if !choices.contains(&preset.name) {
             wrong(format!("is none that the parameter `{PRESET}` can choose"));
         }
         for (name, value) in &preset.values {
-            match descriptor.param(name) {
+            match param_named(name) {
                 None => wrong(format!("gives `{name}`, which is no parameter")),
                 Some(_) if name == PRESET => wrong("chooses a preset".to_owned()),
                 Some(param) if std::mem::discriminant(value) != std::mem::discriminant(&param.default) => {

@@ -1,10 +1,11 @@
-//! A descriptor with its names resolved to indices.
+//! A descriptor with its names resolved to handles.
 
 mod checks;
 mod errors;
 mod resolve;
 
-use crate::descriptor::PassDescriptor;
+use crate::descriptor::{Axis, ParamDescriptor, PassDescriptor, PortDescriptor};
+use crate::handle::{Handle, Table};
 use crate::plan::Usages;
 pub use errors::DescriptorError;
 
@@ -14,13 +15,13 @@ use resolve::resolve;
 /// What validation and planning read of a descriptor.
 #[derive(Debug, Default)]
 pub(crate) struct Signature {
-    pub ports: Vec<PortSignature>,
+    pub ports: Table<PortDescriptor, PortSignature>,
     /// Ports in an order in which each one's size follows from those before it.
-    pub size_order: Vec<u32>,
+    pub size_order: Vec<Handle<PortDescriptor>>,
     /// Inputs that demand a size.
-    pub demands: Vec<u32>,
+    pub demands: Vec<Handle<PortDescriptor>>,
     /// Parameters that set a size.
-    pub size_params: Vec<u32>,
+    pub size_params: Vec<Handle<ParamDescriptor>>,
 }
 
 /// What validation and planning read of a port.
@@ -29,13 +30,13 @@ pub(crate) struct PortSignature {
     pub role: RoleKind,
     pub rule: Option<Rule>,
     /// Of an output of any class: the input whose class (and format) it has.
-    pub like: Option<u32>,
+    pub like: Option<Handle<PortDescriptor>>,
     /// Of an output: the input that flows on where the pass is switched off; `None`: a constant.
-    pub through: Option<u32>,
+    pub through: Option<Handle<PortDescriptor>>,
     /// The value of a constant in the place of the port.
     pub constant: [f32; 4],
     /// How many extents mean something.
-    pub axes: u32,
+    pub axes: usize,
     /// How the pass uses what is bound there.
     pub usages: Usages,
 }
@@ -58,26 +59,31 @@ impl RoleKind {
     pub fn is_output(self) -> bool {
         matches!(self, RoleKind::Output | RoleKind::InOut)
     }
+
+    /// What feeds it flows in the same frame.
+    pub fn reads_this_frame(self) -> bool {
+        matches!(self, RoleKind::Input | RoleKind::Optional | RoleKind::InOut)
+    }
 }
 
-/// [`Extent`] with indices.
+/// [`Extent`](crate::descriptor::Extent) with handles.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Amount {
     Fixed(u32),
-    Frame(usize, f64),
-    Port(u32, usize, f64),
-    Param(u32),
-    Picture(u32, usize),
+    Frame(Axis, f64),
+    Port(Handle<PortDescriptor>, Axis, f64),
+    Param(Handle<ParamDescriptor>),
+    Picture(Handle<ParamDescriptor>, Axis),
     FramePixels(f64),
 }
 
-/// [`SizeRule`] with indices; the two that nearly all ports have are apart.
+/// [`SizeRule`](crate::descriptor::SizeRule) with handles; the two that nearly all ports have are apart.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Rule {
     /// The frame's size. Also that of a port that states none.
     Frame,
     /// The size of another port.
-    Same(u32),
+    Same(Handle<PortDescriptor>),
     /// Three amounts.
     Other([Amount; 3]),
 }
@@ -85,8 +91,8 @@ pub(crate) enum Rule {
 impl Rule {
     fn amounts(self) -> [Amount; 3] {
         match self {
-            Rule::Frame => [Amount::Frame(0, 1.0), Amount::Frame(1, 1.0), Amount::Fixed(1)],
-            Rule::Same(port) => [0, 1, 2].map(|axis| Amount::Port(port, axis, 1.0)),
+            Rule::Frame => [Amount::Frame(Axis::X, 1.0), Amount::Frame(Axis::Y, 1.0), Amount::Fixed(1)],
+            Rule::Same(port) => [Axis::X, Axis::Y, Axis::Z].map(|axis| Amount::Port(port, axis, 1.0)),
             Rule::Other(amounts) => amounts,
         }
     }
@@ -101,14 +107,14 @@ impl Signature {
             check_default(param, &mut errors);
         }
         check_presets(descriptor, &mut errors);
-        let ports: Vec<PortSignature> =
+        let ports: Table<PortDescriptor, PortSignature> =
             descriptor.ports.iter().map(|port| resolve(descriptor, port, &mut errors)).collect();
         let size_order = size_order(descriptor, &ports, &mut errors);
         if !errors.is_empty() {
             return Err(once(errors));
         }
-        let demanding = |port: &u32| ports[*port as usize].role.is_input() && ports[*port as usize].rule.is_some();
-        let demands = (0..ports.len() as u32).filter(demanding).collect();
+        let demands = ports.entries().filter(|(_, port)| port.role.is_input() && port.rule.is_some());
+        let demands = demands.map(|(port, _)| port).collect();
         let size_params = size_params(&ports);
         Ok(Self { ports, size_order, demands, size_params })
     }
@@ -127,25 +133,25 @@ fn once(errors: Vec<DescriptorError>) -> Vec<DescriptorError> {
 
 /// Orders ports so that each size follows from those before it. An input's size follows from nothing where it is fed;
 /// only an optional one may have to be computed.
-fn size_order(descriptor: &PassDescriptor, ports: &[PortSignature], errors: &mut Vec<DescriptorError>) -> Vec<u32> {
-    let needs = |port: &PortSignature| -> Vec<u32> {
+fn size_order(
+    descriptor: &PassDescriptor,
+    ports: &Table<PortDescriptor, PortSignature>,
+    errors: &mut Vec<DescriptorError>,
+) -> Vec<Handle<PortDescriptor>> {
+    let needs = |port: &PortSignature| -> Vec<Handle<PortDescriptor>> {
         let computed = matches!(port.role, RoleKind::Output | RoleKind::Optional);
         let rule = port.rule.filter(|_| computed);
         let named = |amount: Amount| if let Amount::Port(other, ..) = amount { Some(other) } else { None };
         rule.into_iter().flat_map(Rule::amounts).filter_map(named).collect()
     };
-    let mut order: Vec<u32> = Vec::with_capacity(ports.len());
-    let mut left: Vec<u32> =
-        (0..ports.len() as u32).filter(|port| ports[*port as usize].role != RoleKind::History).collect();
+    let mut order: Vec<Handle<PortDescriptor>> = Vec::with_capacity(ports.len());
+    let mut left: Vec<_> = ports.handles().filter(|port| ports[*port].role != RoleKind::History).collect();
     while !left.is_empty() {
-        let ready = |port: &u32| needs(&ports[*port as usize]).iter().all(|other| order.contains(other));
-        let (now, later): (Vec<u32>, Vec<u32>) = left.iter().partition(|port| ready(port));
+        let ready = |port: Handle<PortDescriptor>| needs(&ports[port]).iter().all(|other| order.contains(other));
+        let (now, later): (Vec<_>, Vec<_>) = left.iter().partition(|port| ready(**port));
         if now.is_empty() {
-            errors.extend(
-                later
-                    .iter()
-                    .map(|port| DescriptorError::SizeCycle { port: descriptor.ports[*port as usize].name.clone() }),
-            );
+            let name = |port: Handle<PortDescriptor>| descriptor.ports[port].name.clone();
+            errors.extend(later.into_iter().map(|port| DescriptorError::SizeCycle { port: name(port) }));
             break;
         }
         order.extend(now);
@@ -154,13 +160,13 @@ fn size_order(descriptor: &PassDescriptor, ports: &[PortSignature], errors: &mut
     order
 }
 
-fn size_params(ports: &[PortSignature]) -> Vec<u32> {
+fn size_params(ports: &Table<PortDescriptor, PortSignature>) -> Vec<Handle<ParamDescriptor>> {
     let amounts = ports.iter().filter_map(|port| port.rule).flat_map(Rule::amounts);
     let params = amounts.filter_map(|amount| match amount {
         Amount::Param(param) | Amount::Picture(param, _) => Some(param),
         _ => None,
     });
-    let mut params: Vec<u32> = params.collect();
+    let mut params: Vec<_> = params.collect();
     params.sort_unstable();
     params.dedup();
     params

@@ -1,10 +1,11 @@
-//! From the names in a port's descriptor to indices.
+//! From the names in a port's descriptor to handles.
 
 use super::{Amount, DescriptorError, PortSignature, RoleKind, Rule};
 use crate::descriptor::{
-    Axis, Class, Dimension, Disabled, Extent, Format, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role,
-    SizeRule,
+    Class, Dimension, Disabled, Extent, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind,
+    Role, SizeRule,
 };
+use crate::handle::Handle;
 use crate::plan::Usages;
 
 /// A port with its names resolved; what they get wrong is added to `errors`.
@@ -41,7 +42,7 @@ fn indexed(
     let amounts = [&rule.width, &rule.height, &rule.depth].map(|extent| amount(descriptor, port, extent, errors));
     match amounts[0] {
         _ if *rule == SizeRule::frame(1.0) => Rule::Frame,
-        Amount::Port(other, ..) if *rule == SizeRule::same(&descriptor.ports[other as usize].name) => Rule::Same(other),
+        Amount::Port(other, ..) if *rule == SizeRule::same(&descriptor.ports[other].name) => Rule::Same(other),
         _ => Rule::Other(amounts),
     }
 }
@@ -63,16 +64,16 @@ fn amount(
             Amount::Fixed(1)
         }
         Extent::Fixed(texels) => Amount::Fixed(*texels),
-        Extent::Frame { axis, scale } => Amount::Frame(index_of(*axis), scale_of(*scale)),
+        Extent::Frame { axis, scale } => Amount::Frame(*axis, scale_of(*scale)),
         Extent::FramePixels(scale) => Amount::FramePixels(scale_of(*scale)),
         Extent::Port { port: named, axis, scale } => {
             let scale = scale_of(*scale);
-            match descriptor.ports.iter().position(|other| other.name == *named) {
+            match descriptor.port_named(named) {
                 Some(other) if matches!(descriptor.ports[other].role, Role::History(_)) => {
                     errors.push(DescriptorError::HistorySize { port: name(), named: named.clone() });
                     Amount::Fixed(1)
                 }
-                Some(other) => Amount::Port(other as u32, index_of(*axis), scale),
+                Some(other) => Amount::Port(other, *axis, scale),
                 None => {
                     errors.push(DescriptorError::UnknownSizePort { port: name(), named: named.clone() });
                     Amount::Fixed(1)
@@ -80,19 +81,18 @@ fn amount(
             }
         }
         Extent::Picture { param: named, axis } => {
-            let is_file = |param: &crate::descriptor::ParamDescriptor| matches!(param.default, ParamValue::File(_));
-            match descriptor.params.iter().position(|param| param.name == *named && is_file(param)) {
-                Some(param) => Amount::Picture(param as u32, index_of(*axis)),
+            let is_file =
+                |param: &Handle<ParamDescriptor>| matches!(descriptor.params[*param].default, ParamValue::File(_));
+            match descriptor.param_named(named).filter(is_file) {
+                Some(param) => Amount::Picture(param, *axis),
                 None => {
                     errors.push(DescriptorError::UnknownSizeParam { port: name(), named: named.clone() });
                     Amount::Fixed(1)
                 }
             }
         }
-        Extent::Param(named) => match descriptor.params.iter().position(|param| param.name == *named) {
-            Some(param) if matches!(descriptor.params[param].default, ParamValue::Integer(_)) => {
-                Amount::Param(param as u32)
-            }
+        Extent::Param(named) => match descriptor.param_named(named) {
+            Some(param) if matches!(descriptor.params[param].default, ParamValue::Integer(_)) => Amount::Param(param),
             found => {
                 let (port, named) = (name(), named.clone());
                 errors.push(match found {
@@ -105,16 +105,12 @@ fn amount(
     }
 }
 
-fn index_of(axis: Axis) -> usize {
-    match axis {
-        Axis::X => 0,
-        Axis::Y => 1,
-        Axis::Z => 2,
-    }
-}
-
 /// The input that an output of any class is like: the first texture that its size names.
-fn like(descriptor: &PassDescriptor, port: &PortDescriptor, errors: &mut Vec<DescriptorError>) -> Option<u32> {
+fn like(
+    descriptor: &PassDescriptor,
+    port: &PortDescriptor,
+    errors: &mut Vec<DescriptorError>,
+) -> Option<Handle<PortDescriptor>> {
     let PortKind::Texture { class, format, .. } = &port.kind else { return None };
     if !matches!(port.role, Role::Output { .. }) {
         return None;
@@ -126,23 +122,27 @@ fn like(descriptor: &PassDescriptor, port: &PortDescriptor, errors: &mut Vec<Des
     let rule = port.size.as_ref();
     let extents = rule.iter().flat_map(|rule| [&rule.width, &rule.height, &rule.depth]);
     let named = extents.filter_map(|extent| match extent {
-        Extent::Port { port, .. } => descriptor.ports.iter().position(|other| other.name == *port),
+        Extent::Port { port, .. } => descriptor.port_named(port),
         _ => None,
     });
-    let is_texture_input = |port: &usize| {
+    let is_texture_input = |port: &Handle<PortDescriptor>| {
         let port = &descriptor.ports[*port];
         port.role.is_input() && matches!(port.kind, PortKind::Texture { .. })
     };
-    let found = named.into_iter().find(is_texture_input).map(|port| port as u32);
+    let found = named.into_iter().find(is_texture_input);
     errors.extend(found.is_none().then(|| DescriptorError::NoClass { port: port.name.clone() }));
     found
 }
 
 /// The input that flows on where the pass is switched off.
-fn through(descriptor: &PassDescriptor, port: &PortDescriptor, errors: &mut Vec<DescriptorError>) -> Option<u32> {
+fn through(
+    descriptor: &PassDescriptor,
+    port: &PortDescriptor,
+    errors: &mut Vec<DescriptorError>,
+) -> Option<Handle<PortDescriptor>> {
     let Role::Output { disabled: Disabled::Input(named) } = &port.role else { return None };
     let name = port.name.clone();
-    let found = descriptor.ports.iter().position(|other| other.name == *named && other.role.is_input());
+    let found = descriptor.port_named(named).filter(|other| descriptor.ports[*other].role.is_input());
     let Some(index) = found else {
         errors.push(DescriptorError::UnknownThrough { port: name, named: named.clone() });
         return None;
@@ -153,7 +153,7 @@ fn through(descriptor: &PassDescriptor, port: &PortDescriptor, errors: &mut Vec<
     } else if !may_stand_for(&input.kind, &port.kind) {
         errors.push(DescriptorError::ThroughOther { port: name, named: named.clone() });
     }
-    Some(index as u32)
+    Some(index)
 }
 
 fn may_stand_for(input: &PortKind, output: &PortKind) -> bool {
@@ -168,7 +168,7 @@ fn may_stand_for(input: &PortKind, output: &PortKind) -> bool {
     }
 }
 
-fn axes(kind: &PortKind) -> u32 {
+fn axes(kind: &PortKind) -> usize {
     match kind {
         PortKind::Texture { dimension: Dimension::D2, .. } => 2,
         PortKind::Texture { .. } => 3,

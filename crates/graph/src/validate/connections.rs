@@ -1,71 +1,64 @@
 //! Inputs of passes, and the ports that feed them.
 
-use petgraph::graph::NodeIndex;
 use tyndall_document::{Diagnostic, Span};
 
 use super::Validator;
 use crate::catalogue::Kind;
 use crate::codes;
-use crate::descriptor::Role;
-use crate::file::{InputEntry, Text};
-use crate::graph::{Connection, PortRef};
+use crate::descriptor::{PortDescriptor, Role};
+use crate::file::{InputEntry, PassEntry, Text};
+use crate::graph::{Connection, Pass, PortRef};
+use crate::handle::Handle;
 use crate::signature::RoleKind;
-use crate::table::Feed;
+use crate::wiring::Feed;
 
 impl<'a> Validator<'a> {
     /// Connects what the file feeds to a pass, and reports what it leaves out.
-    pub(super) fn connect(&mut self, pass: u32) {
-        let file = self.file;
-        let entry = &file.passes[pass as usize];
+    pub(super) fn connect(&mut self, pass: Handle<Pass>, entry: &'a PassEntry) {
         let kind = self.kind_of(pass);
         let known = self.is_known_pass(pass);
-        let mut named = std::mem::take(&mut self.named);
-        named.clear();
-        named.resize(kind.signature.ports.len(), false);
         for input in &entry.inputs {
             let source = input.from.as_ref().and_then(|from| self.source(from));
             if !known {
                 continue;
             }
             let Some(port) = self.input(kind, input) else { continue };
-            named[port as usize] = true;
+            let number = self.wiring.port(PortRef { pass, port });
+            self.named[number] = true;
             if let Some((from, span)) = source {
-                self.join(from, PortRef { pass, port }, kind.signature.ports[port as usize].role, span);
+                self.join(from, PortRef { pass, port }, kind.signature.ports[port].role, span);
             }
         }
-        for (index, port) in kind.signature.ports.iter().enumerate() {
-            let number = self.table.port(pass, index as u32);
-            match port.role {
+        for (number, (port, signature)) in self.wiring.ports[pass].handles().zip(kind.signature.ports.entries()) {
+            match signature.role {
                 RoleKind::Output => {}
-                _ if named[index] => {}
-                RoleKind::Optional => self.written[number as usize] = Feed::constant(number),
+                _ if self.named[number] => {}
+                RoleKind::Optional => self.written[number] = Feed::Constant(number),
                 RoleKind::Input | RoleKind::History | RoleKind::InOut => {
-                    self.missing_input(kind, index, &entry.name);
+                    self.missing_input(kind, port, &entry.name);
                 }
             }
         }
-        self.named = named;
     }
 
     fn join(&mut self, from: PortRef, to: PortRef, role: RoleKind, span: Span) {
         let history = role == RoleKind::History;
-        let number = self.table.port(to.pass, to.port);
-        self.written[number as usize] = Feed::port(self.table.port(from.pass, from.port));
+        let number = self.wiring.port(to);
+        self.written[number] = Feed::Port(self.wiring.port(from));
         if history {
-            self.table.history.push(number);
+            self.wiring.history.push(number);
         }
-        let (writer, reader) = (NodeIndex::new(from.pass as usize), NodeIndex::new(to.pass as usize));
-        self.passes.add_edge(writer, reader, Connection { from: from.port, to: to.port, history, span });
+        self.wiring.connection_to[number] = Some(self.connections.push(Connection { from, to, history, span }));
     }
 
-    /// Index of the input that an entry names.
-    fn input(&mut self, kind: &'a Kind, input: &'a InputEntry) -> Option<u32> {
+    /// The input that an entry names.
+    fn input(&mut self, kind: &'a Kind, input: &'a InputEntry) -> Option<Handle<PortDescriptor>> {
         let descriptor = &kind.descriptor;
         let name = self.file.text(&input.name);
-        let found = descriptor.ports.iter().position(|port| port.name == *name);
+        let found = descriptor.port_named(name);
         let place = self.place(input.name.span);
         match found {
-            Some(port) if descriptor.ports[port].role.is_input() => return Some(port as u32),
+            Some(port) if descriptor.ports[port].role.is_input() => return Some(port),
             Some(_) => {
                 let message = format!("`{name}` is an output of `{}`, and cannot be fed", descriptor.name);
                 let inputs: Vec<String> = descriptor.inputs().map(|port| format!("`{}`", port.name)).collect();
@@ -95,9 +88,8 @@ impl<'a> Validator<'a> {
             return None;
         };
         let kind = self.kind_of(pass);
-        let ports = &kind.descriptor.ports;
-        match ports.iter().position(|port| port.name == port_name) {
-            Some(port) if ports[port].role.is_output() => Some((PortRef { pass, port: port as u32 }, from.span)),
+        match kind.descriptor.port_named(port_name) {
+            Some(port) if kind.signature.ports[port].role.is_output() => Some((PortRef { pass, port }, from.span)),
             _ if !self.is_known_pass(pass) => None,
             found => {
                 self.no_output(from, pass, kind, found.is_some());
@@ -127,9 +119,9 @@ impl<'a> Validator<'a> {
         self.report_unknown((codes::UNKNOWN_REFERENCE, place), message, pass, names, |near| format!("{near}.{port}"));
     }
 
-    fn no_output(&mut self, from: &'a Text, pass: u32, kind: &'a Kind, is_input: bool) {
+    fn no_output(&mut self, from: &'a Text, pass: Handle<Pass>, kind: &'a Kind, is_input: bool) {
         let file = self.file;
-        let entry = &file.passes[pass as usize];
+        let entry = &file.passes[pass];
         let (pass_name, kind_name) = (file.text(&entry.name), &kind.descriptor.name);
         let port = &file.text(from)[pass_name.len() + 1..];
         let place = self.place(from.span);
@@ -147,7 +139,7 @@ impl<'a> Validator<'a> {
         self.report_unknown((codes::UNKNOWN_PORT, place), message, port, outputs, |near| format!("{pass_name}.{near}"));
     }
 
-    fn missing_input(&mut self, kind: &Kind, port: usize, name: &Text) {
+    fn missing_input(&mut self, kind: &Kind, port: Handle<PortDescriptor>, name: &Text) {
         let port = &kind.descriptor.ports[port];
         let message =
             format!("`{}` needs the input `{}` of `{}`", self.file.text(name), port.name, kind.descriptor.name);
@@ -161,7 +153,7 @@ impl<'a> Validator<'a> {
         self.report(Diagnostic::error(codes::MISSING_INPUT, place, message).suggest(suggestion));
     }
 
-    pub(super) fn kind_of(&self, pass: u32) -> &'a Kind {
-        self.kinds[self.table.kind_of[pass as usize] as usize]
+    pub(super) fn kind_of(&self, pass: Handle<Pass>) -> &'a Kind {
+        self.kinds[self.wiring.kind_of[pass]]
     }
 }

@@ -16,7 +16,6 @@ mod values;
 use std::path::Path;
 use std::sync::Arc;
 
-use petgraph::graph::DiGraph;
 use rustc_hash::FxHashMap;
 use tyndall_document::{Code, Diagnostic, Diagnostics, MISSING_FILE, Place, Span, near};
 
@@ -24,9 +23,10 @@ use crate::catalogue::{Catalogue, Kind};
 use crate::codes;
 use crate::file::GraphFile;
 use crate::graph::{Connection, Graph, ParamRef, Pass, PortRef};
+use crate::handle::{Handle, Table};
 use crate::names::Names;
 use crate::overrides::Overrides;
-use crate::table::{Feed, Table};
+use crate::wiring::{Feeds, GraphPort, Wiring};
 
 pub(crate) use sizes::size_mistakes;
 
@@ -75,19 +75,20 @@ struct Validator<'a> {
     exists: &'a dyn Fn(&Path) -> bool,
     out: Diagnostics,
     suggestions: u32,
-    names: Names,
+    names: Names<Pass>,
     /// The kind of a pass whose `use` names none.
     unknown: &'a Arc<Kind>,
-    kinds: Vec<&'a Arc<Kind>>,
+    kinds: Table<Kind, &'a Arc<Kind>>,
     params: Params<'a>,
-    passes: DiGraph<Pass, Connection>,
-    table: Table,
-    /// By port: what flows into it if every pass were switched on.
-    written: Vec<Feed>,
+    passes: Table<Pass>,
+    connections: Table<Connection>,
+    wiring: Wiring,
+    /// What flows into each port if every pass were switched on.
+    written: Feeds,
     size_param_places: FxHashMap<ParamRef, Place>,
     pictures: FxHashMap<ParamRef, (u32, u32)>,
-    /// By port of the pass that is being connected: whether the file names it.
-    named: Vec<bool>,
+    /// Whether the file names a port among the inputs of its pass.
+    named: Table<GraphPort, bool>,
 }
 
 impl<'a> Validator<'a> {
@@ -107,14 +108,15 @@ impl<'a> Validator<'a> {
             suggestions: MOST_SUGGESTIONS,
             names: Names::with_capacity(file.passes.len()),
             unknown,
-            kinds: Vec::new(),
+            kinds: Table::new(),
             params: Params::default(),
-            passes: DiGraph::with_capacity(file.passes.len(), file.passes.iter().map(|pass| pass.inputs.len()).sum()),
-            table: Table::default(),
-            written: Vec::new(),
+            passes: Table::with_capacity(file.passes.len()),
+            connections: Table::with_capacity(file.passes.iter().map(|pass| pass.inputs.len()).sum()),
+            wiring: Wiring::default(),
+            written: Table::new(),
             size_param_places: FxHashMap::default(),
             pictures: FxHashMap::default(),
-            named: Vec::new(),
+            named: Table::new(),
         }
     }
 
@@ -122,9 +124,10 @@ impl<'a> Validator<'a> {
     fn graph(&mut self) -> Graph {
         self.index_passes();
         self.read_params();
-        for pass in 0..self.table.passes() {
-            self.set_params(pass);
-            self.connect(pass);
+        let file = self.file;
+        for (pass, entry) in file.passes.entries() {
+            self.set_params(pass, entry);
+            self.connect(pass, entry);
         }
         let outputs = self.outputs();
         self.find_order();
@@ -141,13 +144,13 @@ impl<'a> Validator<'a> {
             params: std::mem::take(&mut self.params).into_graph_params(),
             passes: std::mem::take(&mut self.passes),
             outputs,
-            names: std::mem::take(&mut self.names),
+            connections: std::mem::take(&mut self.connections),
+            names: std::mem::replace(&mut self.names, Names::with_capacity(0)),
             size_param_places: std::mem::take(&mut self.size_param_places),
             pictures: std::mem::take(&mut self.pictures),
-            table: std::mem::take(&mut self.table),
+            wiring: std::mem::take(&mut self.wiring),
         };
-        graph.table.kinds = self.kinds.iter().map(|kind| (*kind).clone()).collect();
-        graph.table.feeds.shrink_to_fit();
+        graph.wiring.kinds = self.kinds.iter().map(|kind| (*kind).clone()).collect();
         self.check_sizes(&graph);
         graph
     }
@@ -202,9 +205,9 @@ impl<'a> Validator<'a> {
     }
 
     /// The pass of this name.
-    fn pass_named(&self, name: &str) -> Option<u32> {
+    fn pass_named(&self, name: &str) -> Option<Handle<Pass>> {
         let file = self.file;
-        self.names.find(name, |pass| file.text(&file.passes[pass as usize].name) == name)
+        self.names.find(name, |pass| file.text(&file.passes[pass].name) == name)
     }
 
     /// Names of all passes.

@@ -10,44 +10,40 @@ use crate::codes;
 use crate::descriptor::PassDescriptor;
 use crate::file::Text;
 use crate::graph::Pass;
+use crate::handle::{Handle, Table};
 use crate::signature::Signature;
-use crate::table::{Feed, Flow};
+use crate::wiring::{Feed, Flow};
 
 impl<'a> Validator<'a> {
     /// Finds the kind of every pass, and numbers passes and ports.
     pub(super) fn index_passes(&mut self) {
-        let passes = self.file.passes.len();
-        self.table.kind_of.reserve(passes);
-        self.table.first_port.reserve(passes + 1);
-        let mut kinds: FxHashMap<&'a str, u32> = FxHashMap::default();
-        let mut ports = 0;
+        let mut kinds: FxHashMap<&'a str, Handle<Kind>> = FxHashMap::default();
         let file = self.file;
-        for (index, entry) in file.passes.iter().enumerate() {
+        for (pass, entry) in file.passes.entries() {
             let kind = self.kind(entry.kind.as_ref(), &mut kinds);
             let name = file.text(&entry.name);
-            self.names.insert(name, index as u32, |pass| file.text(&file.passes[pass as usize].name) == name);
-            self.table.kind_of.push(kind);
-            self.table.first_port.push(ports);
-            let kind = self.kinds[kind as usize].clone();
-            ports += kind.signature.ports.len() as u32;
-            self.table.pass_of.resize(ports as usize, index as u32);
-            self.passes.add_node(Pass {
+            self.names.insert(name, pass, |pass| file.text(&file.passes[pass].name) == name);
+            self.wiring.kind_of.push(kind);
+            let kind = self.kinds[kind].clone();
+            self.wiring.ports.push(self.wiring.pass_of.push_for(&kind.signature.ports, pass));
+            self.passes.push(Pass {
                 name: name.to_owned(),
                 span: entry.name.span,
-                params: Vec::new(),
+                params: Table::new(),
                 enabled: true,
                 switch: None,
                 kind,
             });
         }
-        self.table.first_port.push(ports);
-        self.table.enabled = vec![true; passes];
-        self.table.flows = vec![Flow::UNKNOWN; ports as usize];
-        self.written = vec![Feed::NOTHING; ports as usize];
+        self.wiring.enabled = file.passes.column(true);
+        self.wiring.flows = self.wiring.pass_of.column(Flow::UNKNOWN);
+        self.wiring.connection_to = self.wiring.pass_of.column(None);
+        self.written = self.wiring.pass_of.column(Feed::Nothing);
+        self.named = self.wiring.pass_of.column(false);
     }
 
-    /// Number of the kind that `use` names; of one without ports where it names none.
-    fn kind(&mut self, name: Option<&'a Text>, kinds: &mut FxHashMap<&'a str, u32>) -> u32 {
+    /// The kind that `use` names; one without ports where it names none.
+    fn kind(&mut self, name: Option<&'a Text>, kinds: &mut FxHashMap<&'a str, Handle<Kind>>) -> Handle<Kind> {
         let key = name.map_or("", |name| self.file.text(name));
         if let Some(kind) = kinds.get(key).filter(|kind| self.is_known(**kind)) {
             return *kind;
@@ -56,8 +52,7 @@ impl<'a> Validator<'a> {
         if let (None, Some(name)) = (found, name) {
             self.unknown_pass(name);
         }
-        let kind = self.kinds.len() as u32;
-        self.kinds.push(found.unwrap_or(self.unknown));
+        let kind = self.kinds.push(found.unwrap_or(self.unknown));
         kinds.insert(key, kind);
         kind
     }
@@ -71,12 +66,12 @@ impl<'a> Validator<'a> {
     }
 
     /// Whether this kind is of the catalogue: nothing is demanded of a pass whose kind is not known.
-    pub(super) fn is_known(&self, kind: u32) -> bool {
-        !self.kinds[kind as usize].descriptor.name.is_empty()
+    pub(super) fn is_known(&self, kind: Handle<Kind>) -> bool {
+        !self.kinds[kind].descriptor.name.is_empty()
     }
 
-    pub(super) fn is_known_pass(&self, pass: u32) -> bool {
-        self.is_known(self.table.kind_of[pass as usize])
+    pub(super) fn is_known_pass(&self, pass: Handle<Pass>) -> bool {
+        self.is_known(self.wiring.kind_of[pass])
     }
 }
 
@@ -86,8 +81,8 @@ pub(super) fn unknown_kind() -> Arc<Kind> {
         name: String::new(),
         about: String::new(),
         source: String::new(),
-        ports: Vec::new(),
-        params: Vec::new(),
+        ports: Table::new(),
+        params: Table::new(),
         presets: Vec::new(),
         scene: Vec::new(),
         side_effect: false,

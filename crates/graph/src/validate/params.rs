@@ -7,13 +7,14 @@ use super::Validator;
 use crate::codes;
 use crate::descriptor::ParamValue;
 use crate::graph::{GraphParam, ParamRef};
+use crate::handle::{Handle, Table};
 use crate::overrides::{Override, moved_to_argument};
 
 /// Parameters of the graph by name, and overridden parameters of passes.
 #[derive(Default)]
 pub(super) struct Params<'a> {
-    pub by_name: FxHashMap<&'a str, u32>,
-    pub graph: Vec<GraphValue>,
+    pub by_name: FxHashMap<&'a str, Handle<GraphValue>>,
+    pub graph: Table<GraphValue>,
     pub passes: FxHashMap<ParamRef, &'a Override>,
 }
 
@@ -46,9 +47,7 @@ impl<'a> Validator<'a> {
         for entry in &file.params {
             let mut decoder = Decoder::new(&file.source, &mut self.out);
             let value = free_value(&mut decoder, &entry.value);
-            let index = self.params.graph.len() as u32;
-            self.params.by_name.entry(file.text(&entry.name)).or_insert(index);
-            self.params.graph.push(GraphValue {
+            let param = self.params.graph.push(GraphValue {
                 name: file.text(&entry.name).to_owned(),
                 definition: entry.name.span,
                 value,
@@ -57,6 +56,7 @@ impl<'a> Validator<'a> {
                 uses: Vec::new(),
                 used: false,
             });
+            self.params.by_name.entry(file.text(&entry.name)).or_insert(param);
         }
         let overrides = self.overrides;
         for given in &overrides.params {
@@ -79,8 +79,8 @@ impl<'a> Validator<'a> {
         let mut out = Diagnostics::default();
         let value = free_value(&mut Decoder::new(&given.source, &mut out), &given.value);
         self.out.extend(moved_to_argument(out, &given.argument));
-        let definition = self.place(self.params.graph[index as usize].definition);
-        let param = &mut self.params.graph[index as usize];
+        let definition = self.place(self.params.graph[index].definition);
+        let param = &mut self.params.graph[index];
         if let (Some(declared), Some(value)) = (&param.value, &value)
             && kind_name(declared) != kind_name(value)
         {
@@ -104,9 +104,9 @@ impl<'a> Validator<'a> {
             return;
         };
         let kind = self.kind_of(pass);
-        match kind.descriptor.params.iter().position(|param| param.name == param_name) {
+        match kind.descriptor.param_named(param_name) {
             Some(param) => {
-                self.params.passes.insert(ParamRef { pass, param: param as u32 }, given);
+                self.params.passes.insert(ParamRef { pass, param }, given);
             }
             None if !self.is_known_pass(pass) => {}
             None => {
@@ -120,7 +120,7 @@ impl<'a> Validator<'a> {
 
     /// Every parameter of the graph must set or switch something.
     pub(super) fn check_unused_params(&mut self) {
-        for index in 0..self.params.graph.len() {
+        for index in self.params.graph.handles() {
             let param = &self.params.graph[index];
             if !param.used {
                 let message = format!("nothing uses the parameter `{}`", param.name);

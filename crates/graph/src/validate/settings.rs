@@ -2,29 +2,32 @@
 
 use std::path::Path;
 
-use petgraph::graph::NodeIndex;
 use tyndall_document::{Decoder, Diagnostic, Diagnostics, Node, Place, Span, Value};
 
+use super::params::GraphValue;
 use super::values::{converted, kind_of, same_kind, typed, within};
 use super::{Validator, missing_file};
 use crate::codes;
 use crate::descriptor::{PRESET, ParamDescriptor, ParamValue, PassDescriptor};
-use crate::graph::{ParamRef, ParamSetting};
+use crate::file::PassEntry;
+use crate::graph::{ParamRef, ParamSetting, Pass};
+use crate::handle::{Handle, Table};
 use crate::overrides::moved_to_argument;
+
+type Settings = Table<ParamDescriptor, ParamSetting>;
 
 impl<'a> Validator<'a> {
     /// Sets every parameter of a pass: to its default or what a preset puts in its place, to what the file says, to
     /// what the command line says.
-    pub(super) fn set_params(&mut self, pass: u32) {
+    pub(super) fn set_params(&mut self, pass: Handle<Pass>, entry: &'a PassEntry) {
         let kind = self.kind_of(pass);
         let params = &kind.descriptor.params;
-        let mut settings: Vec<ParamSetting> =
-            params.iter().map(|param| ParamSetting::Value(param.default.clone())).collect();
-        let mut given = vec![false; params.len()];
+        let mut settings: Settings = params.iter().map(|param| ParamSetting::Value(param.default.clone())).collect();
+        let mut given = params.column(false);
         let file = self.file;
-        for entry in &file.passes[pass as usize].params {
+        for entry in &entry.params {
             let name = file.text(&entry.name);
-            let Some(index) = params.iter().position(|param| param.name == name) else {
+            let Some(index) = kind.descriptor.param_named(name) else {
                 if self.is_known_pass(pass) {
                     let message = format!("`{}` has no parameter named `{name}`", kind.descriptor.name);
                     let place = self.place(entry.name.span);
@@ -35,7 +38,7 @@ impl<'a> Validator<'a> {
                 continue;
             };
             given[index] = true;
-            let param = ParamRef { pass, param: index as u32 };
+            let param = ParamRef { pass, param: index };
             if let Some(setting) = self.setting(&params[index], param, &entry.value) {
                 settings[index] = setting;
             }
@@ -45,18 +48,18 @@ impl<'a> Validator<'a> {
             self.override_settings(pass, params, &mut settings, &mut given);
         }
         use_preset(&kind.descriptor, &mut settings, &given);
-        self.passes[NodeIndex::new(pass as usize)].params = settings;
+        self.passes[pass].params = settings;
     }
 
     fn override_settings(
         &mut self,
-        pass: u32,
-        params: &[ParamDescriptor],
-        settings: &mut [ParamSetting],
-        was_given: &mut [bool],
+        pass: Handle<Pass>,
+        params: &Table<ParamDescriptor>,
+        settings: &mut Settings,
+        was_given: &mut Table<ParamDescriptor, bool>,
     ) {
-        for (index, descriptor) in params.iter().enumerate() {
-            let param = ParamRef { pass, param: index as u32 };
+        for (index, descriptor) in params.entries() {
+            let param = ParamRef { pass, param: index };
             let Some(given) = self.params.passes.get(&param).copied() else { continue };
             was_given[index] = true;
             for value in &mut self.params.graph {
@@ -117,9 +120,9 @@ impl<'a> Validator<'a> {
             _ => {}
         }
         let index = self.graph_param(name, &place)?;
-        let value = self.params.graph[index as usize].value.clone()?;
-        let definition = self.place(self.params.graph[index as usize].definition);
-        let given = &mut self.params.graph[index as usize];
+        let value = self.params.graph[index].value.clone()?;
+        let definition = self.place(self.params.graph[index].definition);
+        let given = &mut self.params.graph[index];
         given.uses.push(param);
         let Some(mut value) = converted(value, &descriptor.default) else {
             let message = format!("`{}` is {}, and ${name} is not", descriptor.name, kind_of(descriptor));
@@ -146,10 +149,10 @@ impl<'a> Validator<'a> {
     }
 
     /// The parameter of the graph that `$name` means.
-    pub(super) fn graph_param(&mut self, name: &str, place: &Place) -> Option<u32> {
+    pub(super) fn graph_param(&mut self, name: &str, place: &Place) -> Option<Handle<GraphValue>> {
         let found = self.params.by_name.get(name).copied();
         match found {
-            Some(index) => self.params.graph[index as usize].used = true,
+            Some(index) => self.params.graph[index].used = true,
             None => {
                 let message = format!("the graph has no parameter named `{name}`");
                 let file = self.file;
@@ -158,7 +161,7 @@ impl<'a> Validator<'a> {
                 let near = self.report_unknown(code, message, name, names, |near| format!("${near}"));
                 // What was probably meant is not unused as well.
                 if let Some(index) = near.and_then(|near| self.params.by_name.get(near)) {
-                    self.params.graph[*index as usize].used = true;
+                    self.params.graph[*index].used = true;
                 }
             }
         }
@@ -169,7 +172,7 @@ impl<'a> Validator<'a> {
     fn mark_used(&mut self, node: &Node) {
         let index = reference(node).and_then(|name| self.params.by_name.get(name));
         if let Some(index) = index {
-            self.params.graph[*index as usize].used = true;
+            self.params.graph[*index].used = true;
         }
     }
 
@@ -189,7 +192,7 @@ impl<'a> Validator<'a> {
             return;
         }
         if !matches!(setting, ParamSetting::Value(_)) {
-            let name = &kind.descriptor.params[param.param as usize].name;
+            let name = &kind.descriptor.params[param.param].name;
             let message = format!("`{name}` sets the size of a port, and cannot change from frame to frame");
             self.report(Diagnostic::error(codes::LIVE_SIZE, place.clone(), message));
         }
@@ -207,20 +210,19 @@ impl<'a> Validator<'a> {
     }
 
     /// Where a pass's name stands.
-    pub(super) fn pass_span(&self, pass: u32) -> Span {
-        self.file.passes[pass as usize].name.span
+    pub(super) fn pass_span(&self, pass: Handle<Pass>) -> Span {
+        self.file.passes[pass].name.span
     }
 }
 
 /// Puts the values of the chosen preset in the place of the defaults of all parameters that are not given.
-fn use_preset(descriptor: &PassDescriptor, settings: &mut [ParamSetting], given: &[bool]) {
-    let position = |name: &str| descriptor.params.iter().position(|param| param.name == name);
-    let chosen = position(PRESET).and_then(|index| match &settings[index] {
+fn use_preset(descriptor: &PassDescriptor, settings: &mut Settings, given: &Table<ParamDescriptor, bool>) {
+    let chosen = descriptor.param_named(PRESET).and_then(|index| match &settings[index] {
         ParamSetting::Value(ParamValue::Choice(word)) => descriptor.presets.iter().find(|preset| preset.name == *word),
         _ => None,
     });
     for (name, value) in chosen.map(|preset| preset.values.as_slice()).unwrap_or_default() {
-        if let Some(index) = position(name).filter(|index| !given[*index]) {
+        if let Some(index) = descriptor.param_named(name).filter(|index| !given[*index]) {
             settings[index] = ParamSetting::Value(value.clone());
         }
     }

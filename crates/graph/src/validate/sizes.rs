@@ -1,13 +1,11 @@
 //! Sizes that do not agree, in words.
 
-use petgraph::Direction;
-use petgraph::graph::NodeIndex;
-use tyndall_document::Diagnostic;
+use tyndall_document::{Diagnostic, Place};
 
 use super::Validator;
 use crate::codes;
 use crate::descriptor::ParamValue;
-use crate::graph::{Connection, Graph, ParamRef, ParamSetting, PortRef};
+use crate::graph::{Graph, ParamRef, ParamSetting, PortRef};
 use crate::plan::sizes::{Size, SizeProblem, sizes};
 
 impl Validator<'_> {
@@ -17,8 +15,8 @@ impl Validator<'_> {
             return;
         }
         let (_, mut problems) = sizes(graph, &self.written, graph.size);
-        if graph.table.enabled.contains(&false) {
-            let (_, switched) = sizes(graph, &graph.table.feeds, graph.size);
+        if graph.wiring.enabled.iter().any(|on| !on) {
+            let (_, switched) = sizes(graph, &graph.wiring.feeds, graph.size);
             problems.extend(switched.into_iter().filter(|problem| !same_port(&problems, problem)).collect::<Vec<_>>());
         }
         for mistake in size_mistakes(graph, &problems) {
@@ -40,39 +38,37 @@ pub(crate) fn size_mistakes(graph: &Graph, problems: &[SizeProblem]) -> Vec<Diag
 fn mistake(graph: &Graph, problem: &SizeProblem) -> Option<Diagnostic> {
     match *problem {
         SizeProblem::Differs { port, fed, demanded } => differs(graph, port, fed, demanded),
-        SizeProblem::Param { pass, param, value } => {
-            let of_pass = graph.pass(pass);
-            let name = &of_pass.descriptor().params[param as usize].name;
+        SizeProblem::Param { param, value } => {
+            let name = &graph.pass(param.pass).descriptor().params[param.param].name;
             let message = format!("`{name}` sets the size of a port, and {value} is none");
-            let place = graph.size_param_places.get(&ParamRef { pass, param }).cloned();
-            let place = place.unwrap_or_else(|| graph.place(of_pass.span));
+            let place = place_of(graph, param);
             Some(Diagnostic::error(codes::BAD_SIZE, place, message).suggest("give a number of 1 or more"))
         }
-        SizeProblem::Picture { pass, param } => {
-            let of_pass = graph.pass(pass);
-            let name = &of_pass.descriptor().params[param as usize].name;
-            let message = match &of_pass.params[param as usize] {
+        SizeProblem::Picture { param } => {
+            let of_pass = graph.pass(param.pass);
+            let name = &of_pass.descriptor().params[param.param].name;
+            let message = match &of_pass.params[param.param] {
                 ParamSetting::Value(ParamValue::File(path)) if !path.is_empty() => {
                     format!("`{name}` names {path}, which is no picture that can be read")
                 }
                 _ => format!("`{name}` of pass `{}` names no picture", of_pass.name),
             };
-            let place = graph.size_param_places.get(&ParamRef { pass, param }).cloned();
-            let place = place.unwrap_or_else(|| graph.place(of_pass.span));
-            Some(
-                Diagnostic::error(codes::BAD_PICTURE, place, message)
-                    .suggest("give the path of an EXR, HDR, PNG or NPY file"),
-            )
+            let diagnostic = Diagnostic::error(codes::BAD_PICTURE, place_of(graph, param), message);
+            Some(diagnostic.suggest("give the path of an EXR, HDR, PNG or NPY file"))
         }
     }
 }
 
-fn differs(graph: &Graph, number: u32, fed: Size, demanded: Size) -> Option<Diagnostic> {
-    let pass = graph.table.pass_of[number as usize];
-    let index = number - graph.table.first_port[pass as usize];
-    let (connection, writer) = connection(graph, pass, index)?;
-    let port = &graph.pass(pass).descriptor().ports[index as usize];
-    let axes = graph.table.kind(pass).signature.ports[index as usize].axes as usize;
+/// Where a parameter is set that sets a size; of one that is not, its pass.
+fn place_of(graph: &Graph, param: ParamRef) -> Place {
+    let place = graph.size_param_places.get(&param).cloned();
+    place.unwrap_or_else(|| graph.place(graph.pass(param.pass).span))
+}
+
+fn differs(graph: &Graph, port: PortRef, fed: Size, demanded: Size) -> Option<Diagnostic> {
+    let connection = graph.connection_to(port)?;
+    let axes = graph.wiring.signature(port).axes;
+    let port = graph.port(port);
     let rule = port.size.as_ref().map(ToString::to_string).unwrap_or_default();
     let (demanded, fed) = (size_words(&demanded[..axes]), size_words(&fed[..axes]));
     let message = if rule.starts_with(|first: char| first.is_ascii_digit()) {
@@ -81,16 +77,8 @@ fn differs(graph: &Graph, number: u32, fed: Size, demanded: Size) -> Option<Diag
         format!("`{}` must be {demanded} ({rule}), and this is {fed}", port.name)
     };
     let diagnostic = Diagnostic::error(codes::WRONG_SIZE, graph.place(connection.span), message);
-    let port = graph.port_name(PortRef { pass: writer, port: connection.from });
-    Some(diagnostic.relate(graph.place(graph.pass(writer).span), format!("`{port}` is written here")))
-}
-
-/// The connection that feeds a port, and the pass that writes it.
-fn connection(graph: &Graph, pass: u32, port: u32) -> Option<(&Connection, u32)> {
-    use petgraph::visit::EdgeRef;
-    let inputs = graph.passes.edges_directed(NodeIndex::new(pass as usize), Direction::Incoming);
-    let edge = inputs.into_iter().find(|edge| edge.weight().to == port)?;
-    Some((edge.weight(), edge.source().index() as u32))
+    let writer = graph.place(graph.pass(connection.from.pass).span);
+    Some(diagnostic.relate(writer, format!("`{}` is written here", graph.port_name(connection.from))))
 }
 
 /// `640×480`, `4096 elements`.

@@ -1,53 +1,54 @@
 //! Passes that are switched off, and what flows in their place.
 
-use petgraph::graph::NodeIndex;
 use tyndall_document::Diagnostic;
 
 use super::Validator;
-use super::params::kind_name;
+use super::params::{GraphValue, kind_name};
 use crate::codes;
 use crate::descriptor::ParamValue;
 use crate::file::Switch;
+use crate::graph::Pass;
+use crate::handle::Handle;
 use crate::signature::RoleKind;
-use crate::table::Feed;
+use crate::wiring::Feed;
 
 impl Validator<'_> {
     /// Decides which passes are on, and what feeds every port once the others are gone.
     pub(super) fn switch_passes(&mut self) {
         let mut any_off = false;
-        for pass in 0..self.table.passes() {
+        for pass in self.passes.handles() {
             let on = self.is_on(pass);
             any_off |= !on;
-            self.table.enabled[pass as usize] = on;
-            self.passes[NodeIndex::new(pass as usize)].enabled = on;
+            self.wiring.enabled[pass] = on;
+            self.passes[pass].enabled = on;
         }
-        self.table.feeds = self.written.clone();
+        self.wiring.feeds = self.written.clone();
         if !any_off {
             return;
         }
-        for pass in self.table.order.clone() {
+        for pass in self.wiring.order.clone() {
             self.pass_through(pass);
         }
-        for port in self.table.history.clone() {
-            self.table.feeds[port as usize] = self.flowing(self.written[port as usize]);
+        for port in self.wiring.history.clone() {
+            self.wiring.feeds[port] = self.flowing(self.written[port]);
         }
     }
 
-    fn is_on(&mut self, pass: u32) -> bool {
+    fn is_on(&mut self, pass: Handle<Pass>) -> bool {
         let file = self.file;
-        let Some(switch) = &file.passes[pass as usize].enabled else { return true };
+        let Some(switch) = &file.passes[pass].enabled else { return true };
         match &switch.value {
             Switch::Fixed(on) => *on,
             Switch::Param(name) => {
-                self.passes[NodeIndex::new(pass as usize)].switch = Some(name.clone());
+                self.passes[pass].switch = Some(name.clone());
                 let place = self.place(switch.span);
                 self.graph_param(name, &place).is_none_or(|index| self.switch_value(index, place))
             }
         }
     }
 
-    fn switch_value(&mut self, index: u32, place: tyndall_document::Place) -> bool {
-        let param = &self.params.graph[index as usize];
+    fn switch_value(&mut self, index: Handle<GraphValue>, place: tyndall_document::Place) -> bool {
+        let param = &self.params.graph[index];
         match &param.value {
             Some(ParamValue::Bool(on)) => *on,
             None => true,
@@ -61,22 +62,22 @@ impl Validator<'_> {
         }
     }
 
-    fn pass_through(&mut self, pass: u32) {
+    fn pass_through(&mut self, pass: Handle<Pass>) {
+        let ports = self.wiring.ports[pass];
         let kind = self.kind_of(pass);
-        let first = self.table.first_port[pass as usize];
-        for (number, port) in (first..).zip(&kind.signature.ports) {
-            if !matches!(port.role, RoleKind::Output | RoleKind::History) {
-                self.table.feeds[number as usize] = self.flowing(self.written[number as usize]);
+        for (number, port) in ports.handles().zip(&kind.signature.ports) {
+            if port.role.reads_this_frame() {
+                self.wiring.feeds[number] = self.flowing(self.written[number]);
             }
         }
-        if self.table.enabled[pass as usize] {
+        if self.wiring.enabled[pass] {
             return;
         }
-        for (number, port) in (first..).zip(&kind.signature.ports) {
+        for (number, port) in ports.handles().zip(&kind.signature.ports) {
             if port.role == RoleKind::Output {
-                self.table.feeds[number as usize] = match port.through {
-                    Some(input) => self.table.feeds[(first + input) as usize],
-                    None => Feed::constant(number),
+                self.wiring.feeds[number] = match port.through {
+                    Some(input) => self.wiring.feeds[ports.at(input)],
+                    None => Feed::Constant(number),
                 };
             }
         }
@@ -85,9 +86,7 @@ impl Validator<'_> {
     /// What flows where the file connects a port: past every pass that is off.
     fn flowing(&self, feed: Feed) -> Feed {
         match feed.as_port() {
-            Some(source) if !self.table.enabled[self.table.pass_of[source as usize] as usize] => {
-                self.table.feeds[source as usize]
-            }
+            Some(source) if !self.wiring.enabled[self.wiring.pass_of[source]] => self.wiring.feeds[source],
             _ => feed,
         }
     }

@@ -5,8 +5,10 @@ use tyndall_document::{Code, Diagnostic};
 use super::Validator;
 use crate::codes;
 use crate::descriptor::{Class, Format, PortDescriptor, PortKind};
+use crate::graph::{Pass, PortRef};
+use crate::handle::Handle;
 use crate::signature::RoleKind;
-use crate::table::{Feed, Flow, Shape};
+use crate::wiring::{Feeds, Flow, GraphPort, Shape};
 
 impl Validator<'_> {
     /// Checks every connection as the file has it, and again where switched-off passes are passed through.
@@ -14,8 +16,8 @@ impl Validator<'_> {
         let written = std::mem::take(&mut self.written);
         self.flow(&written);
         self.check_edges(&written, |_| true);
-        if self.table.enabled.contains(&false) {
-            let effective = self.table.feeds.clone();
+        if self.wiring.enabled.iter().any(|on| !on) {
+            let effective = self.wiring.feeds.clone();
             self.flow(&effective);
             self.check_edges(&effective, |number| written[number] != effective[number]);
         }
@@ -23,61 +25,59 @@ impl Validator<'_> {
     }
 
     /// Finds what flows through every port.
-    fn flow(&mut self, feeds: &[Feed]) {
+    fn flow(&mut self, feeds: &Feeds) {
         self.flow_of_outputs();
-        for pass in 0..self.table.order.len() {
-            self.flow_of_pass(self.table.order[pass], feeds);
+        for pass in self.wiring.order.clone() {
+            self.flow_of_pass(pass, feeds);
         }
-        for port in &self.table.history {
-            if let Some(source) = feeds[*port as usize].number() {
-                self.table.flows[*port as usize] = self.table.flows[source as usize];
+        for port in &self.wiring.history {
+            if let Some(source) = feeds[*port].like() {
+                self.wiring.flows[*port] = self.wiring.flows[source];
             }
         }
     }
 
     /// Of outputs this is in the descriptor, but for those of any class.
     fn flow_of_outputs(&mut self) {
-        for pass in 0..self.table.passes() {
+        for pass in self.passes.handles() {
             let kind = self.kind_of(pass);
-            let first = self.table.first_port[pass as usize] as usize;
-            for (index, port) in kind.descriptor.ports.iter().enumerate() {
-                self.table.flows[first + index] = match kind.signature.ports[index].role {
-                    RoleKind::Output if kind.signature.ports[index].like.is_none() => declared(port, Flow::UNKNOWN),
+            for (number, (port, descriptor)) in
+                self.wiring.ports[pass].handles().zip(kind.signature.ports.iter().zip(&kind.descriptor.ports))
+            {
+                self.wiring.flows[number] = match port.role {
+                    RoleKind::Output if port.like.is_none() => declared(descriptor, Flow::UNKNOWN),
                     _ => Flow::UNKNOWN,
                 };
             }
         }
     }
 
-    fn flow_of_pass(&mut self, pass: u32, feeds: &[Feed]) {
+    fn flow_of_pass(&mut self, pass: Handle<Pass>, feeds: &Feeds) {
         let kind = self.kind_of(pass);
-        let first = self.table.first_port[pass as usize];
-        for (number, (port, descriptor)) in (first..).zip(kind.signature.ports.iter().zip(&kind.descriptor.ports)) {
-            if matches!(port.role, RoleKind::Output | RoleKind::History) {
-                continue;
-            }
-            self.table.flows[number as usize] = match feeds[number as usize].number() {
-                Some(source) if source != number => self.table.flows[source as usize],
+        let ports = self.wiring.ports[pass];
+        let numbered = || ports.handles().zip(kind.signature.ports.iter().zip(&kind.descriptor.ports));
+        for (number, (_, descriptor)) in numbered().filter(|(_, (port, _))| port.role.reads_this_frame()) {
+            self.wiring.flows[number] = match feeds[number].like() {
+                Some(source) if source != number => self.wiring.flows[source],
                 Some(_) => absent(descriptor),
                 None => Flow::UNKNOWN,
             };
         }
-        for (number, (port, descriptor)) in (first..).zip(kind.signature.ports.iter().zip(&kind.descriptor.ports)) {
+        for (number, (port, descriptor)) in numbered() {
             if let Some(like) = port.like {
-                self.table.flows[number as usize] = declared(descriptor, self.table.flows[(first + like) as usize]);
+                self.wiring.flows[number] = declared(descriptor, self.wiring.flows[ports.at(like)]);
             }
         }
     }
 
-    fn check_edges(&mut self, feeds: &[Feed], concerns: impl Fn(usize) -> bool) {
-        for pass in 0..self.table.passes() {
-            for number in self.table.ports(pass) {
-                let index = (number - self.table.first_port[pass as usize]) as usize;
-                let role = self.kind_of(pass).signature.ports[index].role;
-                if role.is_input()
-                    && concerns(number as usize)
-                    && let Some(source) = feeds[number as usize].number().filter(|source| *source != number)
-                    && let Some(mistake) = self.mistake(pass, index, source)
+    fn check_edges(&mut self, feeds: &Feeds, concerns: impl Fn(Handle<GraphPort>) -> bool) {
+        for pass in self.passes.handles() {
+            let kind = self.kind_of(pass);
+            for (number, port) in self.wiring.ports[pass].handles().zip(&kind.signature.ports) {
+                if port.role.is_input()
+                    && concerns(number)
+                    && let Some(source) = feeds[number].like().filter(|source| *source != number)
+                    && let Some(mistake) = self.mistake(number, source)
                 {
                     self.report_edge(number, source, mistake);
                 }
@@ -85,25 +85,23 @@ impl Validator<'_> {
         }
     }
 
-    /// What is wrong with feeding the port at `index` from the port `source`.
-    fn mistake(&self, pass: u32, index: usize, source: u32) -> Option<(Code, String)> {
-        let demanded = &self.kind_of(pass).descriptor.ports[index];
-        let flow = self.table.flows[source as usize];
-        let fed = self.descriptor_of(source);
-        kind_mistake(demanded, fed, flow).or_else(|| unit_mistake(demanded, fed))
+    /// What is wrong with feeding a port from the port `source`.
+    fn mistake(&self, number: Handle<GraphPort>, source: Handle<GraphPort>) -> Option<(Code, String)> {
+        let (demanded, fed) = (self.descriptor_of(number), self.descriptor_of(source));
+        kind_mistake(demanded, fed, self.wiring.flows[source]).or_else(|| unit_mistake(demanded, fed))
     }
 
-    fn descriptor_of(&self, number: u32) -> &PortDescriptor {
-        let pass = self.table.pass_of[number as usize];
-        &self.kind_of(pass).descriptor.ports[(number - self.table.first_port[pass as usize]) as usize]
+    fn descriptor_of(&self, number: Handle<GraphPort>) -> &PortDescriptor {
+        let PortRef { pass, port } = self.wiring.port_ref(number);
+        &self.kind_of(pass).descriptor.ports[port]
     }
 
-    fn report_edge(&mut self, number: u32, source: u32, (code, message): (Code, String)) {
-        let (pass, writer) = (self.table.pass_of[number as usize], self.table.pass_of[source as usize]);
+    fn report_edge(&mut self, number: Handle<GraphPort>, source: Handle<GraphPort>, (code, message): (Code, String)) {
+        let (pass, writer) = (self.wiring.pass_of[number], self.wiring.pass_of[source]);
         let file = self.file;
         let name = &self.descriptor_of(number).name;
-        let from = format!("{}.{}", file.text(&file.passes[writer as usize].name), self.descriptor_of(source).name);
-        let input = file.passes[pass as usize].inputs.iter().find(|input| file.text(&input.name) == name);
+        let from = format!("{}.{}", file.text(&file.passes[writer].name), self.descriptor_of(source).name);
+        let input = file.passes[pass].inputs.iter().find(|input| file.text(&input.name) == name);
         let Some(named) = input.and_then(|input| input.from.as_ref()) else { return };
         let message = match from == file.text(named) {
             true => message,

@@ -29,12 +29,14 @@ pub fn descriptor() -> PassDescriptor {
         name: "test.pass".into(),
         about: String::new(),
         source: String::new(),
-        ports: vec![
+        ports: [
             port("depth", Role::Input, texture(Dimension::D2, Class::Scalar, None, false)),
             port("lights_found", Role::Input, PortKind::Buffer { element: "u32".into(), stride: 4 }),
             port("radiance", output(), texture(Dimension::D2, Class::Color, Some(Format::Rgba32Float), false)),
-        ],
-        params: vec![param("exposure", ParamValue::Float(1.0), false), param("nodes", ParamValue::Integer(12), true)],
+        ]
+        .into(),
+        params: [param("exposure", ParamValue::Float(1.0), false), param("nodes", ParamValue::Integer(12), true)]
+            .into(),
         presets: Vec::new(),
         scene: vec!["camera".into()],
         side_effect: false,

@@ -32,7 +32,7 @@ pub fn check(
     out: &mut Diagnostics,
 ) -> Vec<Tapped> {
     let mut checker = Checker { file, graph, has_reference, out };
-    let ports: Vec<PortRef> = outputs(graph).collect();
+    let ports: Vec<PortRef> = graph.written_ports().collect();
     for tap in &file.taps {
         checker.matches_something(&tap.pattern, tap.span, &ports);
         checker.properties_fit_something(tap, &ports);
@@ -40,14 +40,6 @@ pub fn check(
     checker.named_ports_exist();
     let enabled = ports.iter().filter(|port| graph.pass(port.pass).enabled);
     enabled.filter_map(|port| checker.tapped(*port)).collect()
-}
-
-/// Every port that a pass of the graph writes, switched off or not, in file order.
-fn outputs(graph: &Graph) -> impl Iterator<Item = PortRef> + '_ {
-    graph.passes.node_weights().enumerate().flat_map(|(pass, of)| {
-        let ports = of.descriptor().ports.iter().enumerate().filter(|(_, port)| port.role.is_output());
-        ports.map(move |(port, _)| PortRef { pass: pass as u32, port: port as u32 })
-    })
 }
 
 struct Checker<'a> {

@@ -57,7 +57,7 @@ fn changes(own: &Graph, other: &Graph) -> bool {
     let pass = |pass: &tyndall_graph::Pass, other: &tyndall_graph::Pass| {
         pass.enabled == other.enabled && pass.params == other.params
     };
-    let mut passes = own.passes.node_weights().zip(other.passes.node_weights());
+    let mut passes = own.passes.iter().zip(&other.passes);
     own.size != other.size || !passes.all(|(own, other)| pass(own, other))
 }
 

@@ -71,8 +71,8 @@ fn list(name: &str, unordered: bool, changes: bool) -> RustPass {
         name: name.to_owned(),
         about: "A list whose elements come in another order each time".to_owned(),
         source: String::new(),
-        ports: vec![port],
-        params: Vec::new(),
+        ports: [port].into(),
+        params: [].into(),
         presets: Vec::new(),
         scene: Vec::new(),
         side_effect: false,
@@ -95,7 +95,8 @@ impl Program for List {
             [number, 2.0 * number, 1.0, 1.0]
         };
         let texels: Vec<u8> = (0..COUNT as usize).flat_map(element).flat_map(f32::to_le_bytes).collect();
-        recorder.write_texture(0, &texels)
+        let port = recorder.pass.port("list")?;
+        recorder.write_texture(port, &texels)
     }
 }
 

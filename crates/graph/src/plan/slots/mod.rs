@@ -9,10 +9,13 @@ use rustc_hash::FxHashMap;
 mod standing;
 
 use super::lifetimes::Draft;
-use super::sizes::Size;
-use super::{ClassBytes, PlannedPort, Resource, Slot, SlotKind, Step, Usages};
+use super::sizes::Sizes;
+use super::{Bindings, ClassBytes, PlannedPass, PlannedPort, Resource, Slot, SlotKind, Step, Until, Usages};
+use crate::catalogue::Kind;
+use crate::descriptor::PortDescriptor;
+use crate::handle::{Handle, Segment, Table};
 use crate::signature::RoleKind;
-use crate::table::{NONE, Shape, Table};
+use crate::wiring::{GraphPort, Shape, Wiring};
 
 /// What may share, and what outlives a frame.
 #[derive(Debug, Clone, Copy)]
@@ -23,202 +26,190 @@ pub(super) struct Policy {
 
 /// Every port in a slot.
 pub(super) struct Assignment {
-    pub ports: Vec<PlannedPort>,
-    pub slots: Vec<Slot>,
+    pub ports: Table<PlannedPort>,
+    pub slots: Table<Slot>,
     pub steps: Vec<Step>,
-    pub bindings: Vec<Option<u32>>,
-    pub sources: Vec<Option<u32>>,
-    pub classes: Vec<ClassBytes>,
+    pub bindings: Bindings,
+    pub classes: Table<ClassBytes>,
 }
 
 /// Gives every port a slot.
-pub(super) fn assign(
-    table: &Table,
-    sizes: &[Size],
-    draft: &Draft,
-    ports: Vec<PlannedPort>,
-    policy: Policy,
-) -> Assignment {
-    let mut scan = Scan::new(table, sizes, draft, policy, ports);
-    for position in 0..draft.passes.len() as u32 {
+pub(super) fn assign(wiring: &Wiring, sizes: &Sizes, draft: &Draft, policy: Policy) -> Assignment {
+    let mut scan = Scan::new(wiring, sizes, draft, policy);
+    for position in draft.passes.handles() {
         scan.pass(position);
         scan.release(position);
     }
     scan.finish();
-    Assignment {
-        ports: scan.ports,
-        slots: scan.slots,
-        steps: scan.steps,
-        bindings: scan.bindings,
-        sources: scan.sources,
-        classes: scan.classes,
-    }
+    scan.done
 }
 
 struct Scan<'a> {
-    table: &'a Table,
-    sizes: &'a [Size],
+    wiring: &'a Wiring,
+    sizes: &'a Sizes,
     draft: &'a Draft,
     policy: Policy,
-    ports: Vec<PlannedPort>,
-    slots: Vec<Slot>,
-    steps: Vec<Step>,
-    bindings: Vec<Option<u32>>,
-    sources: Vec<Option<u32>>,
-    classes: Vec<ClassBytes>,
-    class_of: FxHashMap<Resource, u32>,
-    /// By kind of pass the first of its ports in `latest`; and by port of a kind its latest class, or constant slot.
-    first_of_kind: Vec<u32>,
-    latest: Vec<u32>,
-    /// By class: a free slot; and by slot: the next free one of its class.
-    free: Vec<u32>,
-    next_free: Vec<u32>,
-    /// By slot: its class, and the port that it holds.
-    state: Vec<SlotState>,
-    /// By position: a port that is read there last; and by port: the next one of the same position.
-    expiring: Vec<u32>,
-    next_expiring: Vec<u32>,
-    constants: FxHashMap<(Resource, [u32; 4]), u32>,
-    histories: FxHashMap<(u32, [u32; 4]), u32>,
-    /// By port, where results are kept: it needs a slot of its own.
-    own: Vec<bool>,
+    done: Assignment,
+    class_of: FxHashMap<Resource, Handle<ClassBytes>>,
+    ports_of_kind: Table<Kind, Segment<PortDescriptor, KindPort>>,
+    latest: Table<KindPort, Latest>,
+    /// The first free slot of a class.
+    free: Table<ClassBytes, Option<Handle<Slot>>>,
+    state: Table<Slot, SlotState>,
+    /// A port that is read last at a position.
+    expiring: Table<PlannedPass, Option<Handle<PlannedPort>>>,
+    /// The next one of the same position.
+    next_expiring: Table<PlannedPort, Option<Handle<PlannedPort>>>,
+    constants: FxHashMap<(Resource, [u32; 4]), Handle<Slot>>,
+    histories: FxHashMap<(Handle<PlannedPort>, [u32; 4]), Handle<Slot>>,
+    /// Whether a port needs a slot of its own; empty where no result is kept.
+    own: Table<PlannedPort, bool>,
+}
+
+/// A port of a kind of pass.
+enum KindPort {}
+
+/// What was last found for a port of a kind: most passes of a kind have the same sizes.
+#[derive(Debug, Clone, Copy, Default)]
+struct Latest {
+    class: Option<Handle<ClassBytes>>,
+    constant: Option<Handle<Slot>>,
 }
 
 #[derive(Clone, Copy)]
 struct SlotState {
-    class: u32,
-    holds: u32,
+    /// `None` of what no pass writes.
+    class: Option<Handle<ClassBytes>>,
+    holds: Option<Handle<PlannedPort>>,
+    /// Of a free slot, the next free one of its class.
+    next_free: Option<Handle<Slot>>,
 }
 
 impl<'a> Scan<'a> {
-    fn new(table: &'a Table, sizes: &'a [Size], draft: &'a Draft, policy: Policy, ports: Vec<PlannedPort>) -> Self {
-        let mut kind_ports = 0;
-        let mut first_of_kind = Vec::with_capacity(table.kinds.len());
-        for kind in &table.kinds {
-            first_of_kind.push(kind_ports);
-            kind_ports += kind.signature.ports.len() as u32;
-        }
-        let bindings = table.pass_of.len();
+    fn new(wiring: &'a Wiring, sizes: &'a Sizes, draft: &'a Draft, policy: Policy) -> Self {
+        let mut latest = Table::new();
+        let ports_of_kind =
+            wiring.kinds.iter().map(|kind| latest.push_for(&kind.signature.ports, Latest::default())).collect();
         let mut scan = Self {
-            table,
+            wiring,
             sizes,
             draft,
             policy,
-            slots: Vec::new(),
-            steps: Vec::with_capacity(draft.passes.len() + 16),
-            bindings: Vec::with_capacity(bindings),
-            sources: Vec::with_capacity(bindings),
-            classes: Vec::new(),
+            done: Assignment {
+                ports: Table::with_capacity(draft.ports.len()),
+                slots: Table::new(),
+                steps: Vec::with_capacity(draft.passes.len() + 16),
+                bindings: Bindings { slots: wiring.pass_of.column(None), sources: wiring.pass_of.column(None) },
+                classes: Table::new(),
+            },
             class_of: FxHashMap::default(),
-            first_of_kind,
-            latest: vec![NONE; kind_ports as usize],
-            free: Vec::new(),
-            next_free: Vec::new(),
-            state: Vec::new(),
-            expiring: vec![NONE; draft.passes.len() + 1],
-            next_expiring: vec![NONE; ports.len()],
+            ports_of_kind,
+            latest,
+            free: Table::new(),
+            state: Table::new(),
+            expiring: draft.passes.column(None),
+            next_expiring: Table::with_capacity(draft.ports.len()),
             constants: FxHashMap::default(),
             histories: FxHashMap::default(),
-            own: Vec::new(),
-            ports,
+            own: Table::new(),
         };
-        scan.own = if policy.keep { scan.own_slots() } else { Vec::new() };
+        scan.own = if policy.keep { scan.own_slots() } else { Table::new() };
         scan
     }
 
     /// Kept ports, and the versions that they were made from in place.
-    fn own_slots(&self) -> Vec<bool> {
-        let mut own: Vec<bool> = self.ports.iter().map(|port| port.kept).collect();
-        for position in (0..self.draft.passes.len() as u32).rev() {
-            let pass = self.draft.passes[position as usize].index;
-            for (number, port) in self.table.ports(pass).zip(&self.table.kind(pass).signature.ports) {
+    fn own_slots(&self) -> Table<PlannedPort, bool> {
+        let mut own: Table<PlannedPort, bool> = self.draft.ports.iter().map(|port| port.kept).collect();
+        for (position, planned) in self.draft.passes.entries().rev() {
+            for (number, port) in self.wiring.ports_of(planned.pass) {
                 if port.role == RoleKind::InOut
-                    && own[self.draft.planned[number as usize] as usize]
+                    && self.draft.planned[number].is_some_and(|port| own[port])
                     && let Some(source) = self.source(number)
                     && self.may_change(source, number, position)
                 {
-                    own[source as usize] = true;
+                    own[source] = true;
                 }
             }
         }
         own
     }
 
-    fn pass(&mut self, position: u32) {
-        let pass = self.draft.passes[position as usize].index;
-        let table = self.table;
-        let signature = &table.kind(pass).signature;
-        let first = table.first_port[pass as usize];
-        for (index, port) in signature.ports.iter().enumerate() {
-            let number = first + index as u32;
+    fn pass(&mut self, position: Handle<PlannedPass>) {
+        let wiring = self.wiring;
+        for (number, port) in wiring.ports_of(self.draft.passes[position].pass) {
             let (slot, source) = match port.role {
                 RoleKind::Output => (self.written(number), None),
                 RoleKind::InOut => self.changed(number, position),
                 RoleKind::History => (self.history(number, port), None),
                 RoleKind::Input | RoleKind::Optional => self.read(number),
             };
-            self.slots[slot as usize].usages |= port.usages;
-            self.bindings.push(Some(slot));
-            self.sources.push(source);
+            self.done.slots[slot].usages |= port.usages;
+            self.done.bindings.slots[number] = Some(slot);
+            self.done.bindings.sources[number] = source;
         }
-        self.steps.push(Step::Run { pass: position });
+        self.done.steps.push(Step::Run { pass: position });
     }
 
     /// The planned port that feeds an input.
-    fn source(&self, number: u32) -> Option<u32> {
-        Some(self.draft.planned[self.table.feeds[number as usize].as_port()? as usize])
+    fn source(&self, input: Handle<GraphPort>) -> Option<Handle<PlannedPort>> {
+        self.draft.source(self.wiring, input)
     }
 
-    fn read(&mut self, number: u32) -> (u32, Option<u32>) {
+    fn read(&mut self, number: Handle<GraphPort>) -> (Handle<Slot>, Option<Handle<PlannedPort>>) {
         match self.source(number) {
-            Some(source) => (self.ports[source as usize].slot, Some(source)),
+            Some(source) => (self.done.ports[source].slot, Some(source)),
             None => (self.constant_for(number), None),
         }
     }
 
-    fn written(&mut self, number: u32) -> u32 {
-        let port = self.draft.planned[number as usize];
+    fn written(&mut self, number: Handle<GraphPort>) -> Handle<Slot> {
         let resource = self.resource(number);
         let class = self.class_of_output(number, resource);
-        let slot = self.allocate(port, resource, class);
-        self.hold(slot, port);
+        let slot = self.allocate(resource, class);
+        self.hold(slot, false);
         slot
     }
 
     /// A new version: in place where nobody needs the old one any more, else in a copy.
-    fn changed(&mut self, number: u32, position: u32) -> (u32, Option<u32>) {
+    fn changed(
+        &mut self,
+        number: Handle<GraphPort>,
+        position: Handle<PlannedPass>,
+    ) -> (Handle<Slot>, Option<Handle<PlannedPort>>) {
         let (from, source) = self.read(number);
-        let port = self.draft.planned[number as usize];
-        if let Some(source) = source.filter(|source| self.may_change(*source, number, position)) {
-            self.ports[port as usize].in_place = true;
-            let resource = self.slots[from as usize].resource;
-            let class = self.class_of_output(number, resource);
-            self.classes[class as usize].ports += 1;
-            self.hold(from, port);
-            return (from, Some(source));
+        if source.is_some_and(|source| self.may_change(source, number, position)) {
+            let class = self.class_of_output(number, self.done.slots[from].resource);
+            self.done.classes[class].ports += 1;
+            self.hold(from, true);
+            return (from, source);
         }
         let to = self.written(number);
-        self.slots[from as usize].usages |= Usages::COPY_FROM;
-        self.slots[to as usize].usages |= Usages::COPY_TO;
-        self.steps.push(Step::Copy { pass: position, from, to });
+        self.done.slots[from].usages |= Usages::COPY_FROM;
+        self.done.slots[to].usages |= Usages::COPY_TO;
+        self.done.steps.push(Step::Copy { pass: position, from, to });
         (to, source)
     }
 
-    /// Whether the pass that reads `source` through the in-out port `number` may change it in place.
-    fn may_change(&self, source: u32, number: u32, position: u32) -> bool {
-        let port = &self.ports[source as usize];
+    /// Whether the pass at this position, which reads `source` through the in-out port `number`, may change it in place.
+    fn may_change(
+        &self,
+        source: Handle<PlannedPort>,
+        number: Handle<GraphPort>,
+        position: Handle<PlannedPass>,
+    ) -> bool {
+        let port = &self.draft.ports[source];
         let kept = self.policy.keep && port.kept;
-        if !self.policy.share || kept || port.lifetime.1 != position {
+        if !self.policy.share || kept || port.until != Until::Pass(position) {
             return false;
         }
-        let pass = self.table.pass_of[number as usize];
-        let feed = self.table.feeds[number as usize];
-        !self.table.ports(pass).any(|other| other != number && self.table.feeds[other as usize] == feed)
+        let feeds = &self.wiring.feeds;
+        let mut ports = self.wiring.ports[self.draft.passes[position].pass].handles();
+        !ports.any(|other| other != number && feeds[other] == feeds[number])
     }
 
-    fn resource(&self, number: u32) -> Resource {
-        let [width, height, depth_or_layers] = self.sizes[number as usize];
-        match self.table.flows[number as usize].shape {
+    fn resource(&self, number: Handle<GraphPort>) -> Resource {
+        let [width, height, depth_or_layers] = self.sizes[number];
+        match self.wiring.flows[number].shape {
             Shape::Texture { dimension, format } => {
                 Resource::Texture { dimension, format, width, height, depth_or_layers }
             }
@@ -228,78 +219,91 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Where the latest class or constant of a port's kind is remembered: most passes of a kind have the same sizes.
-    fn latest(&self, number: u32) -> usize {
-        let pass = self.table.pass_of[number as usize];
-        let kind = self.table.kind_of[pass as usize];
-        (self.first_of_kind[kind as usize] + number - self.table.first_port[pass as usize]) as usize
+    fn kind_port(&self, number: Handle<GraphPort>) -> Handle<KindPort> {
+        let port = self.wiring.port_ref(number);
+        self.ports_of_kind[self.wiring.kind_of[port.pass]].at(port.port)
     }
 
     /// The class of what an output writes.
-    fn class_of_output(&mut self, number: u32, resource: Resource) -> u32 {
-        let latest = self.latest(number);
-        let class = self.latest[latest];
-        if self.classes.get(class as usize).is_some_and(|class| class.resource == resource) {
-            return class;
+    fn class_of_output(&mut self, number: Handle<GraphPort>, resource: Resource) -> Handle<ClassBytes> {
+        let at = self.kind_port(number);
+        match self.latest[at].class {
+            Some(class) if self.done.classes[class].resource == resource => class,
+            _ => {
+                let class = self.class(resource);
+                self.latest[at].class = Some(class);
+                class
+            }
         }
-        self.latest[latest] = self.class(resource);
-        self.latest[latest]
     }
 
-    fn class(&mut self, resource: Resource) -> u32 {
-        let next = self.classes.len() as u32;
-        let class = *self.class_of.entry(resource).or_insert(next);
-        if class == next {
-            self.classes.push(ClassBytes { resource, ports: 0, slots: 0 });
-            self.free.push(NONE);
-        }
-        class
+    fn class(&mut self, resource: Resource) -> Handle<ClassBytes> {
+        *self.class_of.entry(resource).or_insert_with(|| {
+            self.free.push(None);
+            self.done.classes.push(ClassBytes { resource, ports: 0, slots: 0 })
+        })
     }
 
-    fn allocate(&mut self, port: u32, resource: Resource, class: u32) -> u32 {
-        self.classes[class as usize].ports += 1;
-        if self.own.get(port as usize) == Some(&true) {
-            return self.add(resource, SlotKind::Kept, class);
+    /// A slot for the next port.
+    fn allocate(&mut self, resource: Resource, class: Handle<ClassBytes>) -> Handle<Slot> {
+        self.done.classes[class].ports += 1;
+        if self.policy.keep && self.own[self.done.ports.next_handle()] {
+            return self.add(resource, SlotKind::Kept, Some(class));
         }
-        let free = self.free[class as usize];
-        if self.policy.share && free != NONE {
-            self.free[class as usize] = self.next_free[free as usize];
+        if let Some(free) = self.free[class].filter(|_| self.policy.share) {
+            self.free[class] = self.state[free].next_free;
             return free;
         }
-        self.classes[class as usize].slots += 1;
-        self.add(resource, SlotKind::Transient, class)
+        self.done.classes[class].slots += 1;
+        self.add(resource, SlotKind::Transient, Some(class))
     }
 
-    fn add(&mut self, resource: Resource, kind: SlotKind, class: u32) -> u32 {
-        let slot = self.slots.len() as u32;
-        self.slots.push(Slot { resource, kind, usages: Usages::NONE, first_port: NONE });
-        self.next_free.push(NONE);
-        self.state.push(SlotState { class, holds: NONE });
-        slot
+    fn add(&mut self, resource: Resource, kind: SlotKind, class: Option<Handle<ClassBytes>>) -> Handle<Slot> {
+        self.state.push(SlotState { class, holds: None, next_free: None });
+        self.done.slots.push(Slot { resource, kind, usages: Usages::NONE, first_port: None })
     }
 
-    /// Puts a port into a slot, behind those that were there before.
-    fn hold(&mut self, slot: u32, port: u32) {
-        let before = std::mem::replace(&mut self.state[slot as usize].holds, port);
-        match before {
-            NONE => self.slots[slot as usize].first_port = port,
-            before => self.ports[before as usize].next_in_slot = port,
+    /// Puts the next port of the draft into a slot, behind those that were there before. Slots are given in the order of
+    /// the draft's ports: pass by pass, and in each by the descriptor.
+    fn hold(&mut self, slot: Handle<Slot>, in_place: bool) {
+        let port = self.done.ports.next_handle();
+        let draft = self.draft.ports[port];
+        self.done.ports.push(PlannedPort {
+            pass: draft.pass,
+            port: draft.port,
+            slot,
+            class: draft.class,
+            until: draft.until,
+            root: draft.root,
+            kept: draft.kept,
+            carried: draft.carried,
+            in_place,
+            next_in_slot: None,
+        });
+        match self.state[slot].holds.replace(port) {
+            None => self.done.slots[slot].first_port = Some(port),
+            Some(before) => self.done.ports[before].next_in_slot = Some(port),
         }
-        self.ports[port as usize].slot = slot;
-        let last = self.ports[port as usize].lifetime.1 as usize;
-        self.next_expiring[port as usize] = std::mem::replace(&mut self.expiring[last], port);
+        let next = match draft.until {
+            Until::Pass(position) => self.expiring[position].replace(port),
+            Until::End => None,
+        };
+        self.next_expiring.push(next);
     }
 
     /// Frees the slots of the ports that are read last at this position, unless a newer version is in them.
-    fn release(&mut self, position: u32) {
-        let mut port = self.expiring[position as usize];
-        while port != NONE {
-            let slot = self.ports[port as usize].slot;
-            let state = self.state[slot as usize];
-            if state.holds == port && self.slots[slot as usize].kind == SlotKind::Transient {
-                self.next_free[slot as usize] = std::mem::replace(&mut self.free[state.class as usize], slot);
+    fn release(&mut self, position: Handle<PlannedPass>) {
+        let mut next = self.expiring[position];
+        while let Some(port) = next {
+            let slot = self.done.ports[port].slot;
+            let state = &mut self.state[slot];
+            if let Some(class) = state.class
+                && state.holds == Some(port)
+                && self.done.slots[slot].kind == SlotKind::Transient
+            {
+                state.next_free = self.free[class].replace(slot);
             }
-            port = self.next_expiring[port as usize];
+            next = self.next_expiring[port];
         }
     }
 }

@@ -1,0 +1,135 @@
+//! A graph as flat tables: all that planning reads of it.
+//!
+//! Every port of every pass has a handle of its own here: the passes in file order, and within each the descriptor's
+//! order. What feeds a port is already what flows after switched-off passes have been passed through.
+
+use std::sync::Arc;
+
+use crate::catalogue::Kind;
+use crate::descriptor::{Class, Dimension, Format, PortDescriptor};
+use crate::graph::{Connection, Pass, PortRef};
+use crate::handle::{Handle, Segment, Table};
+use crate::signature::PortSignature;
+
+/// A port of a pass of a graph, inputs too: nothing of its own, but [`Wiring`] has a column for each thing that is to be
+/// known of it.
+#[derive(Debug)]
+pub(crate) enum GraphPort {}
+
+/// What flows into a port.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Feed {
+    /// Nothing: an output, or an input that a mistake left unfed.
+    Nothing,
+    /// What a pass that is switched on writes to this port.
+    Port(Handle<GraphPort>),
+    /// The constant that stands for this port: an optional input, or an output of a pass that is switched off.
+    Constant(Handle<GraphPort>),
+}
+
+impl Feed {
+    pub fn as_port(self) -> Option<Handle<GraphPort>> {
+        if let Feed::Port(port) = self { Some(port) } else { None }
+    }
+
+    pub fn as_constant(self) -> Option<Handle<GraphPort>> {
+        if let Feed::Constant(port) = self { Some(port) } else { None }
+    }
+
+    /// The port whose size and type it has.
+    pub fn like(self) -> Option<Handle<GraphPort>> {
+        match self {
+            Feed::Nothing => None,
+            Feed::Port(port) | Feed::Constant(port) => Some(port),
+        }
+    }
+}
+
+/// What flows into every port.
+pub(crate) type Feeds = Table<GraphPort, Feed>;
+
+/// What flows through a port, without its size.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Flow {
+    pub class: Class,
+    pub shape: Shape,
+}
+
+/// What flows through a port, as memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Shape {
+    /// A mistake hides it.
+    Unknown,
+    Texture {
+        dimension: Dimension,
+        format: Format,
+    },
+    Buffer {
+        stride: u32,
+    },
+    Value {
+        bytes: u32,
+    },
+}
+
+impl Flow {
+    pub const UNKNOWN: Flow = Flow { class: Class::Any, shape: Shape::Unknown };
+}
+
+/// A graph as flat tables.
+#[derive(Debug, Default)]
+pub(crate) struct Wiring {
+    /// The kinds of pass that occur.
+    pub kinds: Table<Kind, Arc<Kind>>,
+    pub kind_of: Table<Pass, Handle<Kind>>,
+    /// Whether a pass is switched on.
+    pub enabled: Table<Pass, bool>,
+    pub ports: Table<Pass, Segment<PortDescriptor, GraphPort>>,
+    pub pass_of: Table<GraphPort, Handle<Pass>>,
+    /// What the file connects to a port.
+    pub connection_to: Table<GraphPort, Option<Handle<Connection>>>,
+    /// What flows into a port; of an output of a switched-off pass, what flows out of it.
+    pub feeds: Feeds,
+    /// What flows through a port.
+    pub flows: Table<GraphPort, Flow>,
+    /// Passes, each after those that it reads.
+    pub order: Vec<Handle<Pass>>,
+    /// The history ports that are fed.
+    pub history: Vec<Handle<GraphPort>>,
+}
+
+impl Wiring {
+    pub fn port(&self, port: PortRef) -> Handle<GraphPort> {
+        self.ports[port.pass].at(port.port)
+    }
+
+    /// Whose port it is, and which.
+    pub fn port_ref(&self, port: Handle<GraphPort>) -> PortRef {
+        let pass = self.pass_of[port];
+        PortRef { pass, port: self.ports[pass].key(port) }
+    }
+
+    pub fn kind(&self, pass: Handle<Pass>) -> &Kind {
+        &self.kinds[self.kind_of[pass]]
+    }
+
+    pub fn signature(&self, port: PortRef) -> &PortSignature {
+        &self.kind(port.pass).signature.ports[port.port]
+    }
+
+    /// The ports of a pass, in the descriptor's order.
+    pub fn ports_of(&self, pass: Handle<Pass>) -> impl Iterator<Item = (Handle<GraphPort>, &PortSignature)> + Clone {
+        self.ports[pass].handles().zip(&self.kind(pass).signature.ports)
+    }
+
+    /// The ports of other passes that a pass reads in the same frame, so that it runs after them.
+    pub fn sources(&self, pass: Handle<Pass>) -> impl Iterator<Item = Handle<GraphPort>> {
+        let read = self.ports_of(pass).filter(|(_, port)| port.role.reads_this_frame());
+        read.filter_map(|(port, _)| self.feeds[port].as_port())
+    }
+
+    /// What flows out of a port that the pass writes.
+    pub fn out_of(&self, port: Handle<GraphPort>) -> Feed {
+        if self.enabled[self.pass_of[port]] { Feed::Port(port) } else { self.feeds[port] }
+    }
+}
