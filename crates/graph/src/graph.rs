@@ -10,6 +10,7 @@ use crate::codes;
 use crate::descriptor::{ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor};
 use crate::handle::{Handle, Table};
 use crate::names::Names;
+use crate::signature::PortSignature;
 use crate::wiring::Wiring;
 
 /// A typed graph: passes joined by connections between their ports, as the file has them.
@@ -34,10 +35,8 @@ pub struct Graph {
     /// Outputs in file order.
     pub outputs: Vec<(String, PortRef)>,
     pub(crate) names: Names<Pass>,
-    /// Where the parameters that set sizes are set; of one that is not, its pass.
-    pub(crate) size_param_places: FxHashMap<ParamRef, Place>,
-    /// Width and height of the pictures whose size sets that of a port.
-    pub(crate) pictures: FxHashMap<ParamRef, (u32, u32)>,
+    /// The parameters that set sizes, and are set themselves.
+    pub(crate) size_params: FxHashMap<ParamRef, SizeParam>,
     pub(crate) wiring: Wiring,
 }
 
@@ -118,6 +117,15 @@ pub struct GraphParam {
     pub uses: Vec<ParamRef>,
 }
 
+/// A parameter of a pass that sets a size.
+#[derive(Debug)]
+pub(crate) struct SizeParam {
+    /// Where it is set.
+    pub place: Place,
+    /// Width and height of the picture that it names.
+    pub picture: Option<(u32, u32)>,
+}
+
 impl Graph {
     /// The pass of this handle.
     pub fn pass(&self, pass: Handle<Pass>) -> &Pass {
@@ -138,12 +146,16 @@ impl Graph {
 
     /// The connection that the file makes to a port.
     pub fn connection_to(&self, port: PortRef) -> Option<&Connection> {
-        self.wiring.connection_to[self.wiring.port(port)].map(|connection| &self.connections[connection])
+        self.wiring.connection_to[self.wiring.passes.port(port)].map(|connection| &self.connections[connection])
     }
 
     /// What the pass declares about this port.
     pub fn port(&self, port: PortRef) -> &PortDescriptor {
         &self.passes[port.pass].descriptor().ports[port.port]
+    }
+
+    pub(crate) fn signature(&self, port: PortRef) -> &PortSignature {
+        &self.passes[port.pass].kind.signature.ports[port.port]
     }
 
     /// `pass.port`.

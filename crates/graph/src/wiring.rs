@@ -1,7 +1,7 @@
 //! A graph as flat tables: all that planning reads of it.
 //!
 //! Every port of every pass has a handle of its own here: the passes in file order, and within each the descriptor's
-//! order. What feeds a port is already what flows after switched-off passes have been passed through.
+//! order.
 
 use std::sync::Arc;
 
@@ -11,8 +11,7 @@ use crate::graph::{Connection, Pass, PortRef};
 use crate::handle::{Handle, Segment, Table};
 use crate::signature::PortSignature;
 
-/// A port of a pass of a graph, inputs too: nothing of its own, but [`Wiring`] has a column for each thing that is to be
-/// known of it.
+/// A port of a pass of a graph, inputs too: nothing of its own, but a column for each thing that is to be known of it.
 #[derive(Debug)]
 pub(crate) enum GraphPort {}
 
@@ -45,7 +44,7 @@ impl Feed {
     }
 }
 
-/// What flows into every port.
+/// What flows into every port; of an output of a switched-off pass, what flows out of it.
 pub(crate) type Feeds = Table<GraphPort, Feed>;
 
 /// What flows through a port, without its size.
@@ -76,29 +75,28 @@ impl Flow {
     pub const UNKNOWN: Flow = Flow { class: Class::Any, shape: Shape::Unknown };
 }
 
-/// A graph as flat tables.
+/// The passes of a graph and their ports, by kind.
 #[derive(Debug, Default)]
-pub(crate) struct Wiring {
+pub(crate) struct Passes {
     /// The kinds of pass that occur.
     pub kinds: Table<Kind, Arc<Kind>>,
     pub kind_of: Table<Pass, Handle<Kind>>,
-    /// Whether a pass is switched on.
-    pub enabled: Table<Pass, bool>,
     pub ports: Table<Pass, Segment<PortDescriptor, GraphPort>>,
     pub pass_of: Table<GraphPort, Handle<Pass>>,
-    /// What the file connects to a port.
-    pub connection_to: Table<GraphPort, Option<Handle<Connection>>>,
-    /// What flows into a port; of an output of a switched-off pass, what flows out of it.
-    pub feeds: Feeds,
-    /// What flows through a port.
-    pub flows: Table<GraphPort, Flow>,
-    /// Passes, each after those that it reads.
-    pub order: Vec<Handle<Pass>>,
-    /// The history ports that are fed.
-    pub history: Vec<Handle<GraphPort>>,
 }
 
-impl Wiring {
+impl Passes {
+    /// Adds a pass with its ports.
+    pub fn push(&mut self, kind: Handle<Kind>) -> Handle<Pass> {
+        let pass = self.kind_of.push(kind);
+        self.ports.push(self.pass_of.push_for(&self.kinds[kind].signature.ports, pass));
+        pass
+    }
+
+    pub fn kind(&self, pass: Handle<Pass>) -> &Arc<Kind> {
+        &self.kinds[self.kind_of[pass]]
+    }
+
     pub fn port(&self, port: PortRef) -> Handle<GraphPort> {
         self.ports[port.pass].at(port.port)
     }
@@ -109,12 +107,14 @@ impl Wiring {
         PortRef { pass, port: self.ports[pass].key(port) }
     }
 
-    pub fn kind(&self, pass: Handle<Pass>) -> &Kind {
-        &self.kinds[self.kind_of[pass]]
+    pub fn signature(&self, port: Handle<GraphPort>) -> &PortSignature {
+        let PortRef { pass, port } = self.port_ref(port);
+        &self.kind(pass).signature.ports[port]
     }
 
-    pub fn signature(&self, port: PortRef) -> &PortSignature {
-        &self.kind(port.pass).signature.ports[port.port]
+    pub fn descriptor(&self, port: Handle<GraphPort>) -> &PortDescriptor {
+        let PortRef { pass, port } = self.port_ref(port);
+        &self.kind(pass).descriptor.ports[port]
     }
 
     /// The ports of a pass, in the descriptor's order.
@@ -123,13 +123,38 @@ impl Wiring {
     }
 
     /// The ports of other passes that a pass reads in the same frame, so that it runs after them.
-    pub fn sources(&self, pass: Handle<Pass>) -> impl Iterator<Item = Handle<GraphPort>> {
+    pub fn sources<'a>(&'a self, pass: Handle<Pass>, feeds: &'a Feeds) -> impl Iterator<Item = Handle<GraphPort>> + 'a {
         let read = self.ports_of(pass).filter(|(_, port)| port.role.reads_this_frame());
-        read.filter_map(|(port, _)| self.feeds[port].as_port())
+        read.filter_map(|(port, _)| feeds[port].as_port())
+    }
+}
+
+/// A graph as flat tables.
+#[derive(Debug, Default)]
+pub(crate) struct Wiring {
+    pub passes: Passes,
+    /// What the file connects to a port.
+    pub connection_to: Table<GraphPort, Option<Handle<Connection>>>,
+    /// The history ports that are fed.
+    pub history: Vec<Handle<GraphPort>>,
+    /// Passes, each after those that it reads.
+    pub order: Vec<Handle<Pass>>,
+    /// Whether a pass is switched on.
+    pub enabled: Table<Pass, bool>,
+    /// What feeds a port once switched-off passes have been passed through.
+    pub feeds: Feeds,
+    /// What flows through a port.
+    pub flows: Table<GraphPort, Flow>,
+}
+
+impl Wiring {
+    /// The ports of other passes that a pass reads in the same frame, past those that are switched off.
+    pub fn sources(&self, pass: Handle<Pass>) -> impl Iterator<Item = Handle<GraphPort>> + '_ {
+        self.passes.sources(pass, &self.feeds)
     }
 
     /// What flows out of a port that the pass writes.
     pub fn out_of(&self, port: Handle<GraphPort>) -> Feed {
-        if self.enabled[self.pass_of[port]] { Feed::Port(port) } else { self.feeds[port] }
+        if self.enabled[self.passes.pass_of[port]] { Feed::Port(port) } else { self.feeds[port] }
     }
 }

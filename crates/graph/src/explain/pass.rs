@@ -74,10 +74,10 @@ fn readers(plan: &Plan) -> FxHashMap<Handle<Pass>, Vec<(Handle<Pass>, String)>> 
     let (graph, wiring) = (&plan.graph, &plan.graph.wiring);
     let mut readers: FxHashMap<_, Vec<_>> = FxHashMap::default();
     for reader in plan.passes.iter().map(|planned| planned.pass) {
-        for number in wiring.ports[reader].handles() {
+        for number in wiring.passes.ports[reader].handles() {
             if let Some(source) = wiring.feeds[number].as_port() {
-                let words = graph.port_name(wiring.port_ref(number));
-                readers.entry(wiring.pass_of[source]).or_default().push((reader, words));
+                let words = graph.port_name(wiring.passes.port_ref(number));
+                readers.entry(wiring.passes.pass_of[source]).or_default().push((reader, words));
             }
         }
     }

@@ -14,7 +14,7 @@ use crate::wiring::Feed;
 pub(super) fn explain(plan: &Plan, port: PortRef) -> String {
     let graph = &plan.graph;
     let descriptor = graph.port(port);
-    let role = graph.wiring.signature(port).role;
+    let role = graph.signature(port).role;
     let mut report = Report::new(format!("`{}`: {}", graph.port_name(port), about(descriptor)));
     match plan.position(port.pass) {
         None => not_running(plan, port, &mut report),
@@ -54,12 +54,12 @@ fn not_running(plan: &Plan, port: PortRef, report: &mut Report) {
     if wiring.enabled[port.pass] || !plan.graph.port(port).role.is_output() {
         return;
     }
-    match wiring.feeds[wiring.port(port)] {
+    match wiring.feeds[wiring.passes.port(port)] {
         Feed::Port(source) => {
-            report.line("instead", &format!("{} flows on", plan.graph.port_name(wiring.port_ref(source))));
+            report.line("instead", &format!("{} flows on", plan.graph.port_name(wiring.passes.port_ref(source))));
         }
         Feed::Constant(constant) => {
-            let value = wiring.signature(wiring.port_ref(constant)).constant;
+            let value = wiring.passes.signature(constant).constant;
             report.line("instead", &format!("{} flows out of it", value_words(value)));
         }
         Feed::Nothing => {}
@@ -78,7 +78,7 @@ fn fed_by(plan: &Plan, position: Handle<PlannedPass>, port: PortRef, role: RoleK
             format!("what {} held in the frame before, {} in the first", plan.port_name(of), value_words(first))
         }
         (None, Some(SlotKind::Constant(value))) => {
-            let number = plan.graph.wiring.port(port);
+            let number = plan.graph.wiring.passes.port(port);
             let own = plan.graph.wiring.feeds[number] == Feed::Constant(number);
             let why = if own { "nothing is connected" } else { "the pass that would feed it is switched off" };
             format!("the constant {}: {why}", value_words(value))
@@ -110,7 +110,7 @@ fn in_place_words(plan: &Plan, port: PortRef, source: Handle<PlannedPort>) -> St
 }
 
 fn format(plan: &Plan, port: PortRef) -> String {
-    let of_port = plan.graph.wiring.signature(port);
+    let of_port = plan.graph.signature(port);
     let kind = &plan.graph.pass(port.pass).descriptor().name;
     let resource = resource(plan, port);
     let like = of_port.like.map(|like| &plan.graph.port(PortRef { port: like, ..port }).name);

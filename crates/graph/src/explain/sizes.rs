@@ -32,11 +32,11 @@ impl Chain<'_> {
         self.told.push(port);
         let graph = &self.plan.graph;
         let wiring = &graph.wiring;
-        let number = wiring.port(port);
+        let number = wiring.passes.port(port);
         let (name, size) = (graph.port_name(port), self.words(port));
         let source = wiring.feeds[number].like().filter(|source| *source != number);
-        if let (true, Some(source)) = (wiring.signature(port).role.is_input(), source) {
-            let source = wiring.port_ref(source);
+        if let (true, Some(source)) = (graph.signature(port).role.is_input(), source) {
+            let source = wiring.passes.port_ref(source);
             self.lines.push(format!("{name} is {size}, because {} is fed to it", graph.port_name(source)));
             return self.tell(source);
         }
@@ -88,8 +88,8 @@ impl Chain<'_> {
     }
 
     fn words(&self, port: PortRef) -> String {
-        let wiring = &self.plan.graph.wiring;
-        match &self.sizes[wiring.port(port)][..wiring.signature(port).axes] {
+        let graph = &self.plan.graph;
+        match &self.sizes[graph.wiring.passes.port(port)][..graph.signature(port).axes] {
             [] => "one value".to_owned(),
             [elements] => format!("{elements} elements"),
             extents => extents.iter().map(ToString::to_string).collect::<Vec<_>>().join("×"),

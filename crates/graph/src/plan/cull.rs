@@ -28,15 +28,15 @@ pub(super) fn needed(wiring: &Wiring, roots: &[PortRef]) -> Table<Pass, bool> {
             stack.push(pass);
         }
     };
-    let writer = |feed: Feed| feed.as_port().map(|port| wiring.pass_of[port]);
-    let asked = roots.iter().filter_map(|root| writer(wiring.out_of(wiring.port(*root))));
-    let acts: Table<_, bool> = wiring.kinds.iter().map(|kind| kind.descriptor.side_effect).collect();
-    let acting = wiring.kind_of.entries().filter(|(pass, kind)| acts[**kind] && wiring.enabled[*pass]);
+    let writer = |feed: Feed| feed.as_port().map(|port| wiring.passes.pass_of[port]);
+    let asked = roots.iter().filter_map(|root| writer(wiring.out_of(wiring.passes.port(*root))));
+    let acts: Table<_, bool> = wiring.passes.kinds.iter().map(|kind| kind.descriptor.side_effect).collect();
+    let acting = wiring.passes.kind_of.entries().filter(|(pass, kind)| acts[**kind] && wiring.enabled[*pass]);
     for pass in asked.chain(acting.map(|(pass, _)| pass)) {
         want(pass, &mut stack);
     }
     while let Some(pass) = stack.pop() {
-        for port in wiring.ports[pass].handles() {
+        for port in wiring.passes.ports[pass].handles() {
             if let Some(pass) = writer(wiring.feeds[port]) {
                 want(pass, &mut stack);
             }

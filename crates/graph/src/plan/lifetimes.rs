@@ -34,14 +34,14 @@ impl Draft {
         let mut draft = Self {
             passes: Table::with_capacity(order.len()),
             ports: Table::with_capacity(2 * order.len()),
-            planned: wiring.pass_of.column(None),
-            positions: wiring.kind_of.column(None),
+            planned: wiring.passes.pass_of.column(None),
+            positions: wiring.passes.kind_of.column(None),
             roots: Vec::with_capacity(roots.len()),
         };
         for pass in order {
             draft.pass(wiring, *pass);
         }
-        for port in wiring.history.iter().filter(|port| needed[wiring.pass_of[**port]]) {
+        for port in wiring.history.iter().filter(|port| needed[wiring.passes.pass_of[**port]]) {
             if let Some(source) = draft.source(wiring, *port) {
                 let source = &mut draft.ports[source];
                 source.until = Until::End;
@@ -59,14 +59,14 @@ impl Draft {
     /// Adds a pass at the next position.
     fn pass(&mut self, wiring: &Wiring, pass: Handle<Pass>) {
         let (position, first) = (self.passes.next_handle(), self.ports.next_handle());
-        for (number, port) in wiring.ports_of(pass) {
+        for (number, port) in wiring.passes.ports_of(pass) {
             if port.role.reads_this_frame()
                 && let Some(source) = self.source(wiring, number)
             {
                 self.ports[source].until = Until::Pass(position);
             }
             if port.role.is_output() {
-                let port = PortRef { pass, port: wiring.ports[pass].key(number) };
+                let port = PortRef { pass, port: wiring.passes.ports[pass].key(number) };
                 let written = DraftPort::new(Some(position), port, wiring.flows[number].class);
                 self.planned[number] = Some(self.ports.push(written));
             }
@@ -76,7 +76,7 @@ impl Draft {
     }
 
     fn root(&mut self, wiring: &Wiring, root: PortRef) {
-        let number = wiring.port(root);
+        let number = wiring.passes.port(root);
         let flowing = wiring.out_of(number).as_port().unwrap_or(number);
         let constant = || self.ports.push(DraftPort::new(None, root, wiring.flows[number].class));
         let planned = *self.planned[flowing].get_or_insert_with(constant);
@@ -90,11 +90,12 @@ impl Draft {
     pub fn keep(&mut self, graph: &Graph, keep: &Keep) {
         let Keep::Edges { live, animated } = keep else { return };
         let wiring = &graph.wiring;
-        let mut changing = wiring.kind_of.column(false);
+        let mut changing = wiring.passes.kind_of.column(false);
         for param in live.iter().flat_map(|name| graph.find_params(name)) {
             changing[param.pass] = true;
         }
         let kind_changes: Table<_, bool> = wiring
+            .passes
             .kinds
             .iter()
             .map(|kind| {
@@ -107,7 +108,7 @@ impl Draft {
             let pass = self.passes[position].pass;
             let mut params = graph.pass(pass).params.iter();
             self.passes[position].volatile = changing[pass]
-                || kind_changes[wiring.kind_of[pass]]
+                || kind_changes[wiring.passes.kind_of[pass]]
                 || params.any(|setting| !matches!(setting, ParamSetting::Value(_)))
                 || self.sources(wiring, pass).any(|source| self.is_volatile(source));
         }

@@ -248,13 +248,13 @@ impl Plan {
     /// The slot bound to each of the descriptor's ports: inputs, constants for what is absent, outputs. Every entry is
     /// `Some`, but for an input that the pass declares and a mistake left unfed.
     pub fn bindings(&self, position: Handle<PlannedPass>) -> Slice<'_, PortDescriptor, Option<Handle<Slot>>> {
-        self.bindings.slots.slice(self.graph.wiring.ports[self.passes[position].pass])
+        self.bindings.slots.slice(self.graph.wiring.passes.ports[self.passes[position].pass])
     }
 
     /// The planned port that feeds each of the descriptor's ports. `None` of an output, of a history port, and of an
     /// input that reads a constant slot.
     pub fn sources(&self, position: Handle<PlannedPass>) -> Slice<'_, PortDescriptor, Option<Handle<PlannedPort>>> {
-        self.bindings.sources.slice(self.graph.wiring.ports[self.passes[position].pass])
+        self.bindings.sources.slice(self.graph.wiring.passes.ports[self.passes[position].pass])
     }
 
     /// The ports that the pass at this position writes, in the descriptor's order.
@@ -281,7 +281,7 @@ impl Plan {
     /// switched off. `None` where it was culled, or is a constant that nobody asked for.
     pub fn planned(&self, port: PortRef) -> Option<Handle<PlannedPort>> {
         let wiring = &self.graph.wiring;
-        let port = wiring.port(port);
+        let port = wiring.passes.port(port);
         self.planned[port].or_else(|| self.planned[wiring.out_of(port).as_port()?])
     }
 

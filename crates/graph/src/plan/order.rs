@@ -20,7 +20,7 @@ fn shuffled(wiring: &Wiring, needed: &Table<Pass, bool>, seed: u64) -> Vec<Handl
     for pass in needed.handles().filter(|pass| needed[*pass]) {
         // A pass waits once for each port that it reads.
         for source in wiring.sources(pass) {
-            readers[wiring.pass_of[source]].push(pass);
+            readers[wiring.passes.pass_of[source]].push(pass);
             waits_for[pass] += 1;
         }
     }

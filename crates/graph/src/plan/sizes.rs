@@ -48,9 +48,9 @@ struct Resolver<'a> {
 
 impl Resolver<'_> {
     fn pass(&mut self, pass: Handle<Pass>) {
-        let signature = &self.graph.wiring.kind(pass).signature;
+        let signature = &self.graph.wiring.passes.kind(pass).signature;
         for port in &signature.size_order {
-            let number = self.graph.wiring.ports[pass].at(*port);
+            let number = self.graph.wiring.passes.ports[pass].at(*port);
             self.sizes[number] = self.port(pass, number, &signature.ports[*port]);
         }
         for port in &signature.demands {
@@ -73,16 +73,16 @@ impl Resolver<'_> {
     }
 
     fn history(&mut self, number: Handle<GraphPort>) {
-        let port = self.graph.wiring.port_ref(number);
+        let port = self.graph.wiring.passes.port_ref(number);
         if let Some(source) = self.feeds[number].like() {
             self.sizes[number] = self.sizes[source];
         }
-        self.demand(port, self.graph.wiring.signature(port));
+        self.demand(port, self.graph.signature(port));
     }
 
     fn demand(&mut self, port: PortRef, of_port: &PortSignature) {
         let (Some(rule), axes) = (of_port.rule.as_ref(), of_port.axes) else { return };
-        let number = self.graph.wiring.port(port);
+        let number = self.graph.wiring.passes.port(port);
         let fed = self.sizes[number];
         if fed == UNKNOWN || self.feeds[number].like() == Some(number) {
             return;
@@ -96,7 +96,7 @@ impl Resolver<'_> {
     fn evaluate(&mut self, pass: Handle<Pass>, rule: &Rule, axes: usize) -> Size {
         match rule {
             Rule::Frame => cut([self.frame.0, self.frame.1, 1], axes),
-            Rule::Same(other) => cut(self.sizes[self.graph.wiring.ports[pass].at(*other)], axes),
+            Rule::Same(other) => cut(self.sizes[self.graph.wiring.passes.ports[pass].at(*other)], axes),
             Rule::Other(amounts) => self.amounts(pass, amounts, axes),
         }
     }
@@ -109,20 +109,21 @@ impl Resolver<'_> {
                 Amount::Frame(axis, scale) => scaled(axis.of([self.frame.0, self.frame.1, 1]), scale),
                 Amount::FramePixels(scale) => pixels(self.frame, scale),
                 Amount::Port(other, axis, scale) => {
-                    let other = self.sizes[self.graph.wiring.ports[pass].at(other)];
+                    let other = self.sizes[self.graph.wiring.passes.ports[pass].at(other)];
                     if other == UNKNOWN {
                         return UNKNOWN;
                     }
                     scaled(axis.of(other), scale)
                 }
                 Amount::Param(param) => self.param(ParamRef { pass, param }),
-                Amount::Picture(param, axis) => match self.graph.pictures.get(&ParamRef { pass, param }) {
-                    Some(&(width, height)) => axis.of([width, height, 1]),
-                    None => {
-                        self.problem(SizeProblem::Picture { param: ParamRef { pass, param } });
+                Amount::Picture(param, axis) => {
+                    let param = ParamRef { pass, param };
+                    let Some((width, height)) = self.graph.size_params.get(&param).and_then(|set| set.picture) else {
+                        self.problem(SizeProblem::Picture { param });
                         return UNKNOWN;
-                    }
-                },
+                    };
+                    axis.of([width, height, 1])
+                }
             };
         }
         size

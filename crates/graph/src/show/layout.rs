@@ -308,7 +308,7 @@ fn pin(graph: &Graph, boxes: &Table<Pass, Rectangle>, port: PortRef, output: boo
 
 /// Which line of its side of the box a port has.
 pub(super) fn row(graph: &Graph, port: PortRef, output: bool) -> usize {
-    let ports = &graph.wiring.kind(port.pass).signature.ports;
+    let ports = &graph.wiring.passes.kind(port.pass).signature.ports;
     let on_side = |role: RoleKind| if output { role.is_output() } else { role.is_input() };
     ports.iter().take(port.port.index()).filter(|port| on_side(port.role)).count()
 }

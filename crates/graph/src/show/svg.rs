@@ -168,7 +168,7 @@ fn draw_port(
     (ink, faint): (&str, &str),
     colours: &Colours,
 ) {
-    let role = plan.graph.wiring.signature(port).role;
+    let role = plan.graph.signature(port).role;
     let descriptor = plan.graph.port(port);
     if role.is_input() {
         let y = place.y + line_middle(row(&plan.graph, port, false));

@@ -51,7 +51,7 @@ fn write_order(text: &mut String, plan: &Plan) -> fmt::Result {
 /// What a pass reads: ports, constants, history, copies.
 fn reads(plan: &Plan, position: Handle<PlannedPass>) -> String {
     let descriptor = plan.descriptor(position);
-    let signature = &plan.graph.wiring.kind(plan.passes[position].pass).signature;
+    let signature = &plan.graph.wiring.passes.kind(plan.passes[position].pass).signature;
     let mut words = Vec::new();
     for (index, port) in descriptor.ports.entries() {
         let role = signature.ports[index].role;

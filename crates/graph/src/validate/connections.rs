@@ -1,159 +1,169 @@
 //! Inputs of passes, and the ports that feed them.
 
-use tyndall_document::{Diagnostic, Span};
+use tyndall_document::Diagnostic;
 
-use super::Validator;
-use crate::catalogue::Kind;
+use super::mistakes::Mistakes;
+use super::scope::Scope;
 use crate::codes;
-use crate::descriptor::{PortDescriptor, Role};
+use crate::descriptor::{PassDescriptor, PortDescriptor, Role};
 use crate::file::{InputEntry, PassEntry, Text};
 use crate::graph::{Connection, Pass, PortRef};
-use crate::handle::Handle;
+use crate::handle::{Handle, Table};
 use crate::signature::RoleKind;
-use crate::wiring::Feed;
+use crate::wiring::{Feed, Feeds, GraphPort};
 
-impl<'a> Validator<'a> {
-    /// Connects what the file feeds to a pass, and reports what it leaves out.
-    pub(super) fn connect(&mut self, pass: Handle<Pass>, entry: &'a PassEntry) {
-        let kind = self.kind_of(pass);
-        let known = self.is_known_pass(pass);
+/// What feeds the ports of a graph as it is written, as if every pass were switched on.
+pub(super) struct Connections {
+    pub list: Table<Connection>,
+    pub to: Table<GraphPort, Option<Handle<Connection>>>,
+    pub written: Feeds,
+    /// The history ports that are fed.
+    pub history: Vec<Handle<GraphPort>>,
+}
+
+/// Connects what the file feeds to passes, and reports what it leaves out.
+pub(super) fn connect(scope: &Scope<'_>, out: &mut Mistakes) -> Connections {
+    let ports = &scope.passes.pass_of;
+    let mut connections = Connections {
+        list: Table::with_capacity(scope.file.passes.iter().map(|pass| pass.inputs.len()).sum()),
+        to: ports.column(None),
+        written: ports.column(Feed::Nothing),
+        history: Vec::new(),
+    };
+    let mut is_named = ports.column(false);
+    for (pass, entry) in scope.file.passes.entries() {
         for input in &entry.inputs {
-            let source = input.from.as_ref().and_then(|from| self.source(from));
-            if !known {
-                continue;
-            }
-            let Some(port) = self.input(kind, input) else { continue };
-            let number = self.wiring.port(PortRef { pass, port });
-            self.named[number] = true;
-            if let Some((from, span)) = source {
-                self.join(from, PortRef { pass, port }, kind.signature.ports[port].role, span);
+            let from = input.from.as_ref().and_then(|from| Some((written(scope, from, out)?, from)));
+            let Some(to) = input_port(scope, pass, input, out) else { continue };
+            is_named[scope.passes.port(to)] = true;
+            if let Some((port, from)) = from {
+                connections.join(scope, port, to, from);
             }
         }
-        for (number, (port, signature)) in self.wiring.ports[pass].handles().zip(kind.signature.ports.entries()) {
+        for (port, signature) in scope.passes.ports_of(pass).filter(|(port, _)| !is_named[*port]) {
             match signature.role {
                 RoleKind::Output => {}
-                _ if self.named[number] => {}
-                RoleKind::Optional => self.written[number] = Feed::Constant(number),
+                RoleKind::Optional => connections.written[port] = Feed::Constant(port),
                 RoleKind::Input | RoleKind::History | RoleKind::InOut => {
-                    self.missing_input(kind, port, &entry.name);
+                    out.report(missing_input(scope, pass, entry, scope.passes.descriptor(port)));
                 }
             }
         }
     }
+    connections
+}
 
-    fn join(&mut self, from: PortRef, to: PortRef, role: RoleKind, span: Span) {
-        let history = role == RoleKind::History;
-        let number = self.wiring.port(to);
-        self.written[number] = Feed::Port(self.wiring.port(from));
+/// The outputs of the graph that name a port.
+pub(super) fn outputs(scope: &Scope<'_>, out: &mut Mistakes) -> Vec<(String, PortRef)> {
+    let file = scope.file;
+    if file.outputs.is_empty() && !file.broken {
+        let message = "the graph has no outputs, so nothing would be drawn";
+        let suggestion = "add outputs: { \"image\": \"pass.port\" }";
+        let place = scope.place(file.outputs_span);
+        out.report(Diagnostic::error(codes::NO_OUTPUTS, place, message).suggest(suggestion));
+    }
+    let outputs = file.outputs.iter();
+    outputs
+        .filter_map(|output| Some((file.text(&output.name).to_owned(), written(scope, &output.from, out)?)))
+        .collect()
+}
+
+impl Connections {
+    fn join(&mut self, scope: &Scope<'_>, from: PortRef, to: PortRef, text: &Text) {
+        let port = scope.passes.port(to);
+        let history = scope.passes.signature(port).role == RoleKind::History;
         if history {
-            self.wiring.history.push(number);
+            self.history.push(port);
         }
-        self.wiring.connection_to[number] = Some(self.connections.push(Connection { from, to, history, span }));
+        self.written[port] = Feed::Port(scope.passes.port(from));
+        self.to[port] = Some(self.list.push(Connection { from, to, history, span: text.span }));
     }
+}
 
-    /// The input that an entry names.
-    fn input(&mut self, kind: &'a Kind, input: &'a InputEntry) -> Option<Handle<PortDescriptor>> {
-        let descriptor = &kind.descriptor;
-        let name = self.file.text(&input.name);
-        let found = descriptor.port_named(name);
-        let place = self.place(input.name.span);
-        match found {
-            Some(port) if descriptor.ports[port].role.is_input() => return Some(port),
-            Some(_) => {
-                let message = format!("`{name}` is an output of `{}`, and cannot be fed", descriptor.name);
-                let inputs: Vec<String> = descriptor.inputs().map(|port| format!("`{}`", port.name)).collect();
-                let suggestion = match inputs.is_empty() {
-                    true => "the pass has no inputs".to_owned(),
-                    false => format!("its inputs are {}", inputs.join(", ")),
-                };
-                self.report(Diagnostic::error(codes::NOT_AN_INPUT, place, message).suggest(suggestion));
-            }
-            None => {
-                let message = format!("`{}` has no input named `{name}`", descriptor.name);
-                let inputs = descriptor.inputs().map(|port| port.name.as_str());
-                self.report_unknown((codes::UNKNOWN_PORT, place), message, name, inputs, str::to_owned);
-            }
-        }
-        None
-    }
-
-    /// The port that `pass.port` means, and where it stands.
-    pub(super) fn source(&mut self, from: &'a Text) -> Option<(PortRef, Span)> {
-        let Some((pass_name, port_name)) = self.file.text(from).split_once('.') else {
-            self.bad_reference(from);
-            return None;
-        };
-        let Some(pass) = self.pass_named(pass_name) else {
-            self.unknown_reference(from, pass_name, port_name);
-            return None;
-        };
-        let kind = self.kind_of(pass);
-        match kind.descriptor.port_named(port_name) {
-            Some(port) if kind.signature.ports[port].role.is_output() => Some((PortRef { pass, port }, from.span)),
-            _ if !self.is_known_pass(pass) => None,
-            found => {
-                self.no_output(from, pass, kind, found.is_some());
-                None
-            }
+/// The port that an entry of a pass's inputs names. Nothing is said of a pass whose kind is not known.
+fn input_port(scope: &Scope<'_>, pass: Handle<Pass>, input: &InputEntry, out: &mut Mistakes) -> Option<PortRef> {
+    let descriptor = &scope.passes.kind(pass).descriptor;
+    let name = scope.file.text(&input.name);
+    match descriptor.port_named(name) {
+        Some(port) if descriptor.ports[port].role.is_input() => return Some(PortRef { pass, port }),
+        Some(_) => out.report(not_an_input(scope, descriptor, &input.name)),
+        None if !scope.is_known(pass) => {}
+        None => {
+            let message = format!("`{}` has no input named `{name}`", descriptor.name);
+            let inputs = descriptor.inputs().map(|port| port.name.as_str());
+            let code = (codes::UNKNOWN_PORT, scope.place(input.name.span));
+            out.report_unknown(code, message, name, inputs, str::to_owned);
         }
     }
+    None
+}
 
-    fn bad_reference(&mut self, from: &'a Text) {
-        let name = self.file.text(from);
-        let message = format!("`{name}` names no port");
-        let place = self.place(from.span);
-        let mut diagnostic = Diagnostic::error(codes::BAD_REFERENCE, place, message);
-        let kind = self.pass_named(name).map(|pass| self.kind_of(pass));
-        let port = kind.and_then(|kind| kind.descriptor.outputs().next());
-        diagnostic = diagnostic.suggest(match port {
-            Some(port) => format!("write pass.port: `{name}.{}`", port.name),
-            None => "write pass.port".to_owned(),
-        });
-        self.report(diagnostic);
-    }
+fn not_an_input(scope: &Scope<'_>, descriptor: &PassDescriptor, name: &Text) -> Diagnostic {
+    let message = format!("`{}` is an output of `{}`, and cannot be fed", scope.file.text(name), descriptor.name);
+    let inputs: Vec<String> = descriptor.inputs().map(|port| format!("`{}`", port.name)).collect();
+    let suggestion = match inputs.is_empty() {
+        true => "the pass has no inputs".to_owned(),
+        false => format!("its inputs are {}", inputs.join(", ")),
+    };
+    Diagnostic::error(codes::NOT_AN_INPUT, scope.place(name.span), message).suggest(suggestion)
+}
 
-    fn unknown_reference(&mut self, from: &'a Text, pass: &str, port: &str) {
-        let message = format!("there is no pass named `{pass}`");
-        let place = self.place(from.span);
-        let names = self.pass_names();
-        self.report_unknown((codes::UNKNOWN_REFERENCE, place), message, pass, names, |near| format!("{near}.{port}"));
-    }
-
-    fn no_output(&mut self, from: &'a Text, pass: Handle<Pass>, kind: &'a Kind, is_input: bool) {
-        let file = self.file;
-        let entry = &file.passes[pass];
-        let (pass_name, kind_name) = (file.text(&entry.name), &kind.descriptor.name);
-        let port = &file.text(from)[pass_name.len() + 1..];
-        let place = self.place(from.span);
-        let outputs = kind.descriptor.outputs().map(|port| port.name.as_str());
-        if is_input {
-            let message = format!("`{port}` is an input of `{kind_name}`, and nothing can be read from it");
-            let outputs: Vec<String> = outputs.map(|port| format!("`{pass_name}.{port}`")).collect();
-            let related = self.place(entry.name.span);
-            let diagnostic = Diagnostic::error(codes::NOT_AN_OUTPUT, place, message)
-                .suggest(format!("what it writes is {}", outputs.join(", ")))
-                .relate(related, format!("`{pass_name}` stands here"));
-            return self.report(diagnostic);
+fn missing_input(scope: &Scope<'_>, pass: Handle<Pass>, entry: &PassEntry, port: &PortDescriptor) -> Diagnostic {
+    let kind = &scope.passes.kind(pass).descriptor.name;
+    let message = format!("`{}` needs the input `{}` of `{kind}`", scope.file.text(&entry.name), port.name);
+    let suggestion = match &port.role {
+        Role::History(_) => {
+            format!("feed it with what it should hold of the frame before: \"{}\": \"pass.port\"", port.name)
         }
-        let message = format!("`{kind_name}` has no output named `{port}`");
-        self.report_unknown((codes::UNKNOWN_PORT, place), message, port, outputs, |near| format!("{pass_name}.{near}"));
-    }
+        _ => format!("add \"{}\": \"pass.port\" to its inputs", port.name),
+    };
+    Diagnostic::error(codes::MISSING_INPUT, scope.place(entry.name.span), message).suggest(suggestion)
+}
 
-    fn missing_input(&mut self, kind: &Kind, port: Handle<PortDescriptor>, name: &Text) {
-        let port = &kind.descriptor.ports[port];
-        let message =
-            format!("`{}` needs the input `{}` of `{}`", self.file.text(name), port.name, kind.descriptor.name);
-        let place = self.place(name.span);
-        let suggestion = match &port.role {
-            Role::History(_) => {
-                format!("feed it with what it should hold of the frame before: \"{}\": \"pass.port\"", port.name)
-            }
-            _ => format!("add \"{}\": \"pass.port\" to its inputs", port.name),
-        };
-        self.report(Diagnostic::error(codes::MISSING_INPUT, place, message).suggest(suggestion));
+/// The port that `pass.port` means, which the pass writes.
+fn written(scope: &Scope<'_>, from: &Text, out: &mut Mistakes) -> Option<PortRef> {
+    let Some((pass_name, port_name)) = scope.file.text(from).split_once('.') else {
+        out.report(bad_reference(scope, from));
+        return None;
+    };
+    let Some(pass) = scope.pass_named(pass_name) else {
+        let message = format!("there is no pass named `{pass_name}`");
+        let code = (codes::UNKNOWN_REFERENCE, scope.place(from.span));
+        out.report_unknown(code, message, pass_name, scope.pass_names(), |near| format!("{near}.{port_name}"));
+        return None;
+    };
+    let descriptor = &scope.passes.kind(pass).descriptor;
+    match descriptor.port_named(port_name) {
+        Some(port) if descriptor.ports[port].role.is_output() => return Some(PortRef { pass, port }),
+        Some(_) => out.report(not_an_output(scope, pass, from, port_name)),
+        None if !scope.is_known(pass) => {}
+        None => {
+            let message = format!("`{}` has no output named `{port_name}`", descriptor.name);
+            let outputs = descriptor.outputs().map(|port| port.name.as_str());
+            let code = (codes::UNKNOWN_PORT, scope.place(from.span));
+            out.report_unknown(code, message, port_name, outputs, |near| format!("{pass_name}.{near}"));
+        }
     }
+    None
+}
 
-    pub(super) fn kind_of(&self, pass: Handle<Pass>) -> &'a Kind {
-        self.kinds[self.wiring.kind_of[pass]]
-    }
+fn bad_reference(scope: &Scope<'_>, from: &Text) -> Diagnostic {
+    let name = scope.file.text(from);
+    let pass = scope.pass_named(name).map(|pass| &scope.passes.kind(pass).descriptor);
+    let suggestion = match pass.and_then(|descriptor| descriptor.outputs().next()) {
+        Some(port) => format!("write pass.port: `{name}.{}`", port.name),
+        None => "write pass.port".to_owned(),
+    };
+    let message = format!("`{name}` names no port");
+    Diagnostic::error(codes::BAD_REFERENCE, scope.place(from.span), message).suggest(suggestion)
+}
+
+fn not_an_output(scope: &Scope<'_>, pass: Handle<Pass>, from: &Text, port: &str) -> Diagnostic {
+    let descriptor = &scope.passes.kind(pass).descriptor;
+    let name = scope.name(pass);
+    let message = format!("`{port}` is an input of `{}`, and nothing can be read from it", descriptor.name);
+    let outputs: Vec<String> = descriptor.outputs().map(|port| format!("`{name}.{}`", port.name)).collect();
+    Diagnostic::error(codes::NOT_AN_OUTPUT, scope.place(from.span), message)
+        .suggest(format!("what it writes is {}", outputs.join(", ")))
+        .relate(scope.place_of(pass), format!("`{name}` stands here"))
 }

@@ -8,11 +8,27 @@ use petgraph::graph::{DiGraph, NodeIndex};
 use rustc_hash::{FxHashMap, FxHashSet};
 use tyndall_document::Diagnostic;
 
-use super::Validator;
+use super::connections::Connections;
+use super::mistakes::Mistakes;
+use super::scope::Scope;
 use crate::codes;
-use crate::graph::{Connection, Pass, PortRef};
+use crate::graph::{Connection, Pass};
 use crate::handle::{Handle, Table};
-use crate::wiring::GraphPort;
+use crate::wiring::{Feeds, Passes};
+
+/// Orders the passes as the file does, but for those that must wait; reports loops.
+pub(super) fn order(scope: &Scope<'_>, connections: &Connections, out: &mut Mistakes) -> Vec<Handle<Pass>> {
+    let (order, has_loops) = depth_first(&scope.passes, &connections.written);
+    if has_loops {
+        for tangle in tangles(scope, connections) {
+            let way = shortest_loop(scope, connections, &tangle);
+            if let Some(mistake) = in_words(scope, &way) {
+                out.report(mistake);
+            }
+        }
+    }
+    order
+}
 
 #[derive(Clone, Copy, PartialEq)]
 enum State {
@@ -21,131 +37,116 @@ enum State {
     Done,
 }
 
-impl Validator<'_> {
-    /// Orders the passes as the file does, but for those that must wait; reports loops.
-    pub(super) fn find_order(&mut self) {
-        let mut order = Vec::with_capacity(self.passes.len());
-        let mut state = self.passes.column(State::Unseen);
-        let mut stack: Vec<(Handle<Pass>, crate::handle::Handles<GraphPort>)> = Vec::new();
-        let mut loops = false;
-        for pass in self.passes.handles() {
-            if state[pass] == State::Unseen {
-                state[pass] = State::Waiting;
-                stack.push((pass, self.wiring.ports[pass].handles()));
-            }
-            while let Some((pass, ports)) = stack.last_mut() {
-                let pass = *pass;
-                let Some(port) = ports.next() else {
-                    state[pass] = State::Done;
-                    order.push(pass);
-                    stack.pop();
-                    continue;
-                };
-                let Some(source) = self.read_by(pass, port) else { continue };
-                match state[source] {
-                    State::Unseen => {
-                        state[source] = State::Waiting;
-                        stack.push((source, self.wiring.ports[source].handles()));
-                    }
-                    State::Waiting => loops = true,
-                    State::Done => {}
+/// Each pass behind those that it reads, and whether there is a pass that waits for itself.
+fn depth_first(passes: &Passes, feeds: &Feeds) -> (Vec<Handle<Pass>>, bool) {
+    let mut order = Vec::with_capacity(passes.kind_of.len());
+    let mut state = passes.kind_of.column(State::Unseen);
+    let mut stack = Vec::new();
+    let mut has_loops = false;
+    for first in passes.kind_of.handles() {
+        if state[first] == State::Unseen {
+            state[first] = State::Waiting;
+            stack.push((first, passes.sources(first, feeds)));
+        }
+        while let Some((pass, sources)) = stack.last_mut() {
+            let Some(source) = sources.next() else {
+                state[*pass] = State::Done;
+                order.push(*pass);
+                stack.pop();
+                continue;
+            };
+            let writer = passes.pass_of[source];
+            match state[writer] {
+                State::Unseen => {
+                    state[writer] = State::Waiting;
+                    stack.push((writer, passes.sources(writer, feeds)));
                 }
+                State::Waiting => has_loops = true,
+                State::Done => {}
             }
         }
-        self.wiring.order = order;
-        if loops {
-            self.report_loops();
-        }
     }
+    (order, has_loops)
+}
 
-    /// The pass that must run before `pass`, because its port `number` reads it.
-    fn read_by(&self, pass: Handle<Pass>, number: Handle<GraphPort>) -> Option<Handle<Pass>> {
-        let source = self.written[number].as_port()?;
-        let port = self.wiring.ports[pass].key(number);
-        let role = self.kind_of(pass).signature.ports[port].role;
-        role.reads_this_frame().then(|| self.wiring.pass_of[source])
+/// Sets of passes that wait for each other; also every pass by itself that waits for none.
+fn tangles(scope: &Scope<'_>, connections: &Connections) -> Vec<FxHashSet<Handle<Pass>>> {
+    let mut waits: DiGraph<Handle<Pass>, ()> = DiGraph::new();
+    let nodes: Table<Pass, NodeIndex> = scope.file.passes.handles().map(|pass| waits.add_node(pass)).collect();
+    for Connection { from, to, .. } in connections.list.iter().filter(|connection| !connection.history) {
+        waits.add_edge(nodes[from.pass], nodes[to.pass], ());
     }
+    let tangles = kosaraju_scc(&waits).into_iter();
+    tangles.map(|tangle| tangle.into_iter().map(|node| waits[node]).collect()).collect()
+}
 
-    /// One loop of each tangle of passes that wait for each other: the shortest through its first pass in the file.
-    fn report_loops(&mut self) {
-        let mut ordering: DiGraph<Handle<Pass>, ()> = DiGraph::new();
-        let nodes: Table<Pass, NodeIndex> = self.passes.handles().map(|pass| ordering.add_node(pass)).collect();
-        for Connection { from, to, .. } in self.connections.iter().filter(|connection| !connection.history) {
-            ordering.add_edge(nodes[from.pass], nodes[to.pass], ());
-        }
-        for tangle in kosaraju_scc(&ordering) {
-            let tangle: FxHashSet<Handle<Pass>> = tangle.into_iter().map(|node| ordering[node]).collect();
-            let connections = self.shortest_loop(&tangle);
-            self.report_loop(&connections);
-        }
-    }
-
-    /// The connections of the shortest loop through the first pass of a tangle, against the flow: each is read by the
-    /// writer of the one before it. None where the pass is a tangle by itself and does not read itself.
-    fn shortest_loop(&self, tangle: &FxHashSet<Handle<Pass>>) -> Vec<Handle<Connection>> {
-        let Some(start) = tangle.iter().copied().min() else { return Vec::new() };
-        let mut reached_by: FxHashMap<Handle<Pass>, Handle<Connection>> = FxHashMap::default();
-        let mut queue = VecDeque::from([start]);
-        while let Some(pass) = queue.pop_front() {
-            let inputs = self.wiring.ports[pass].handles().filter_map(|port| self.wiring.connection_to[port]);
-            for input in inputs.filter(|input| !self.connections[*input].history) {
-                let writer = self.connections[input].from.pass;
-                if writer == start {
-                    return self.walk_back(input, start, &reached_by);
-                }
-                if tangle.contains(&writer)
-                    && let Entry::Vacant(vacant) = reached_by.entry(writer)
-                {
-                    vacant.insert(input);
-                    queue.push_back(writer);
-                }
+/// The connections of the shortest loop through the first pass of a tangle, against the flow: each is read by the
+/// writer of the one before it. Empty where the pass waits for no pass of the tangle.
+fn shortest_loop<'c>(
+    scope: &Scope<'_>,
+    connections: &'c Connections,
+    tangle: &FxHashSet<Handle<Pass>>,
+) -> Vec<&'c Connection> {
+    let Some(start) = tangle.iter().copied().min() else { return Vec::new() };
+    let mut reached_by: FxHashMap<Handle<Pass>, &Connection> = FxHashMap::default();
+    let mut queue = VecDeque::from([start]);
+    while let Some(pass) = queue.pop_front() {
+        let read = scope.passes.ports[pass].handles().filter_map(|port| connections.to[port]);
+        for connection in read.map(|read| &connections.list[read]).filter(|connection| !connection.history) {
+            let writer = connection.from.pass;
+            if writer == start {
+                return walk_back(connection, start, &reached_by);
+            }
+            if tangle.contains(&writer)
+                && let Entry::Vacant(vacant) = reached_by.entry(writer)
+            {
+                vacant.insert(connection);
+                queue.push_back(writer);
             }
         }
-        Vec::new()
     }
+    Vec::new()
+}
 
-    fn walk_back(
-        &self,
-        last: Handle<Connection>,
-        start: Handle<Pass>,
-        reached_by: &FxHashMap<Handle<Pass>, Handle<Connection>>,
-    ) -> Vec<Handle<Connection>> {
-        let mut way = vec![last];
-        let mut reader = self.connections[last].to.pass;
-        while reader != start {
-            let next = reached_by[&reader];
-            way.push(next);
-            reader = self.connections[next].to.pass;
-        }
-        way.reverse();
-        way
+fn walk_back<'c>(
+    last: &'c Connection,
+    start: Handle<Pass>,
+    reached_by: &FxHashMap<Handle<Pass>, &'c Connection>,
+) -> Vec<&'c Connection> {
+    let mut way = vec![last];
+    let mut reader = last.to.pass;
+    while reader != start {
+        let next = reached_by[&reader];
+        way.push(next);
+        reader = next.to.pass;
     }
+    way.reverse();
+    way
+}
 
-    fn report_loop(&mut self, connections: &[Handle<Connection>]) {
-        let file = self.file;
-        let name = |port: PortRef| file.text(&file.passes[port.pass].name);
-        let starts = connections.iter().enumerate();
-        let first = starts.min_by_key(|(_, connection)| self.connections[**connection].span.start);
-        let Some((at, first)) = first else { return };
-        let first = &self.connections[*first];
-        let (before, behind) = connections.split_at(at);
-        let mut waits = format!("`{}` waits", name(first.to));
-        let mut diagnostic = Diagnostic::error(codes::CYCLE, self.place(first.span), String::new());
-        for (index, connection) in behind.iter().chain(before).enumerate() {
-            let Connection { from, to, span, .. } = &self.connections[*connection];
-            waits += if index == 0 { " for " } else { ", which waits for " };
-            waits += &if from.pass == to.pass { "itself".to_owned() } else { format!("`{}`", name(*from)) };
-            if index > 0 {
-                let port = &self.kind_of(to.pass).descriptor.ports[to.port].name;
-                let from = file.source.slice(*span).trim_matches('"');
-                let what = format!("`{}` reads `{from}` as `{port}`", name(*to));
-                diagnostic = diagnostic.relate(self.place(*span), what);
-            }
+/// A loop in words, from its connection that stands first in the file on.
+fn in_words(scope: &Scope<'_>, way: &[&Connection]) -> Option<Diagnostic> {
+    let (at, first) = way.iter().enumerate().min_by_key(|(_, connection)| connection.span.start)?;
+    let (before, behind) = way.split_at(at);
+    let mut waits = format!("`{}` waits", scope.name(first.to.pass));
+    let mut diagnostic = Diagnostic::error(codes::CYCLE, scope.place(first.span), String::new());
+    for (index, connection) in behind.iter().chain(before).enumerate() {
+        let Connection { from, to, span, .. } = connection;
+        waits += if index == 0 { " for " } else { ", which waits for " };
+        waits += &match from.pass == to.pass {
+            true => "itself".to_owned(),
+            false => format!("`{}`", scope.name(from.pass)),
+        };
+        if index > 0 {
+            let port = &scope.passes.descriptor(scope.passes.port(*to)).name;
+            let from = scope.file.source.slice(*span).trim_matches('"');
+            let what = format!("`{}` reads `{from}` as `{port}`", scope.name(to.pass));
+            diagnostic = diagnostic.relate(scope.place(*span), what);
         }
-        diagnostic.message = waits;
-        self.report(
-            diagnostic
-                .suggest("break the loop at one of these connections, or read the frame before through a history port"),
-        );
     }
+    diagnostic.message = waits;
+    Some(
+        diagnostic
+            .suggest("break the loop at one of these connections, or read the frame before through a history port"),
+    )
 }

@@ -1,12 +1,16 @@
 //! From a file's tree to a typed graph, with every mistake on the way.
 //!
-//! Each step goes on after a mistake as far as it can without reporting the same mistake a second time: what a mistake
-//! hides has an unknown type and an unknown size, and nothing is demanded of those.
+//! Validation is a row of steps, and each takes what those before it have found. A step goes on after a mistake as far
+//! as it can without reporting the same mistake a second time: what a mistake hides has an unknown type and an unknown
+//! size, and nothing is demanded of those.
 
 mod connections;
 mod cycles;
-mod names;
+mod given;
+mod mistakes;
+mod outside;
 mod params;
+mod scope;
 mod settings;
 mod sizes;
 mod switches;
@@ -16,24 +20,19 @@ mod values;
 use std::path::Path;
 use std::sync::Arc;
 
-use rustc_hash::FxHashMap;
-use tyndall_document::{Code, Diagnostic, Diagnostics, MISSING_FILE, Place, Span, near};
+use tyndall_document::Diagnostics;
 
-use crate::catalogue::{Catalogue, Kind};
-use crate::codes;
+use crate::catalogue::Catalogue;
 use crate::file::GraphFile;
-use crate::graph::{Connection, Graph, ParamRef, Pass, PortRef};
-use crate::handle::{Handle, Table};
-use crate::names::Names;
+use crate::graph::{Graph, Pass};
+use crate::handle::Table;
 use crate::overrides::Overrides;
-use crate::wiring::{Feeds, GraphPort, Wiring};
+use crate::wiring::Wiring;
 
 pub(crate) use sizes::size_mistakes;
 
-use params::Params;
-
-/// Names for which a near one is sought in one file: the search is not cheap, and nobody reads more.
-const MOST_SUGGESTIONS: u32 = 100;
+use mistakes::Mistakes;
+use scope::Scope;
 
 /// Checks a file against the passes that there are, and gives its graph where it has no mistake.
 ///
@@ -56,214 +55,79 @@ pub fn validate_with(
     exists: &dyn Fn(&Path) -> bool,
     out: &mut Diagnostics,
 ) -> Option<Arc<Graph>> {
-    let unknown = names::unknown_kind();
-    let mut validator = Validator::new(file, catalogue, overrides, exists, &unknown);
-    let graph = validator.graph();
-    let sound = !file.broken && !validator.out.has_errors();
-    if !validator.out.is_empty() {
-        out.extend(validator.out);
+    let mut mistakes = Mistakes::new();
+    let graph = graph(&Request { file, catalogue, overrides, exists }, &mut mistakes);
+    let found = mistakes.into_diagnostics();
+    let sound = !file.broken && !found.has_errors();
+    if !found.is_empty() {
+        out.extend(found);
         out.sort();
         out.dedup();
     }
     sound.then(|| Arc::new(graph))
 }
 
-struct Validator<'a> {
+/// What is validated, and against what.
+struct Request<'a> {
     file: &'a GraphFile,
     catalogue: &'a Catalogue,
     overrides: &'a Overrides,
     exists: &'a dyn Fn(&Path) -> bool,
-    out: Diagnostics,
-    suggestions: u32,
-    names: Names<Pass>,
-    /// The kind of a pass whose `use` names none.
-    unknown: &'a Arc<Kind>,
-    kinds: Table<Kind, &'a Arc<Kind>>,
-    params: Params<'a>,
-    passes: Table<Pass>,
-    connections: Table<Connection>,
-    wiring: Wiring,
-    /// What flows into each port if every pass were switched on.
-    written: Feeds,
-    size_param_places: FxHashMap<ParamRef, Place>,
-    pictures: FxHashMap<ParamRef, (u32, u32)>,
-    /// Whether the file names a port among the inputs of its pass.
-    named: Table<GraphPort, bool>,
 }
 
-impl<'a> Validator<'a> {
-    fn new(
-        file: &'a GraphFile,
-        catalogue: &'a Catalogue,
-        overrides: &'a Overrides,
-        exists: &'a dyn Fn(&Path) -> bool,
-        unknown: &'a Arc<Kind>,
-    ) -> Self {
-        Self {
-            file,
-            catalogue,
-            overrides,
-            exists,
-            out: Diagnostics::default(),
-            suggestions: MOST_SUGGESTIONS,
-            names: Names::with_capacity(file.passes.len()),
-            unknown,
-            kinds: Table::new(),
-            params: Params::default(),
-            passes: Table::with_capacity(file.passes.len()),
-            connections: Table::with_capacity(file.passes.iter().map(|pass| pass.inputs.len()).sum()),
-            wiring: Wiring::default(),
-            written: Table::new(),
-            size_param_places: FxHashMap::default(),
-            pictures: FxHashMap::default(),
-            named: Table::new(),
-        }
-    }
-
-    /// The graph, complete only where nothing was reported.
-    fn graph(&mut self) -> Graph {
-        self.index_passes();
-        self.read_params();
-        let file = self.file;
-        for (pass, entry) in file.passes.entries() {
-            self.set_params(pass, entry);
-            self.connect(pass, entry);
-        }
-        let outputs = self.outputs();
-        self.find_order();
-        self.switch_passes();
-        self.check_unused_params();
-        self.check_types();
-        let scene = self.scene();
-        let size = self.size();
-        let mut graph = Graph {
-            source: self.file.source.clone(),
-            about: self.file.about.clone(),
-            scene,
-            size,
-            params: std::mem::take(&mut self.params).into_graph_params(),
-            passes: std::mem::take(&mut self.passes),
-            outputs,
-            connections: std::mem::take(&mut self.connections),
-            names: std::mem::replace(&mut self.names, Names::with_capacity(0)),
-            size_param_places: std::mem::take(&mut self.size_param_places),
-            pictures: std::mem::take(&mut self.pictures),
-            wiring: std::mem::take(&mut self.wiring),
-        };
-        graph.wiring.kinds = self.kinds.iter().map(|kind| (*kind).clone()).collect();
-        self.check_sizes(&graph);
-        graph
-    }
-
-    /// The outputs of the graph that name a port.
-    fn outputs(&mut self) -> Vec<(String, PortRef)> {
-        let file = self.file;
-        if file.outputs.is_empty() && !file.broken {
-            let message = "the graph has no outputs, so nothing would be drawn";
-            let suggestion = "add outputs: { \"image\": \"pass.port\" }";
-            self.report(
-                Diagnostic::error(codes::NO_OUTPUTS, self.place(file.outputs_span), message).suggest(suggestion),
-            );
-        }
-        let mut outputs = Vec::with_capacity(file.outputs.len());
-        for output in &file.outputs {
-            if let Some((port, _)) = self.source(&output.from) {
-                outputs.push((file.text(&output.name).to_owned(), port));
-            }
-        }
-        outputs
-    }
-
-    fn scene(&mut self) -> Option<String> {
-        if let Some(scene) = &self.overrides.scene {
-            return Some(scene.clone());
-        }
-        let scene = self.file.scene.as_ref()?;
-        let path = self.beside_file(&scene.value);
-        if !(self.exists)(Path::new(&path)) {
-            self.report(missing_file(&path, self.place(scene.span)));
-        }
-        Some(path)
-    }
-
-    fn size(&mut self) -> (u32, u32) {
-        let Some((width, height)) = self.overrides.size else {
-            return self.file.size.as_ref().map_or((640, 480), |size| size.value);
-        };
-        if width == 0 || height == 0 {
-            let place = Place::Argument(format!("--size {width}x{height}"));
-            let message = format!("a size of {width}×{height} pixels is none");
-            self.report(Diagnostic::error(codes::BAD_SIZE, place, message).suggest("give two numbers of 1 or more"));
-        }
-        (width, height)
-    }
-
-    /// A path that stands in the file, relative to the working directory.
-    fn beside_file(&self, path: &str) -> String {
-        let folder = Path::new(self.file.source.name()).parent().unwrap_or(Path::new(""));
-        folder.join(path).to_string_lossy().into_owned()
-    }
-
-    /// The pass of this name.
-    fn pass_named(&self, name: &str) -> Option<Handle<Pass>> {
-        let file = self.file;
-        self.names.find(name, |pass| file.text(&file.passes[pass].name) == name)
-    }
-
-    /// Names of all passes.
-    fn pass_names(&self) -> impl Iterator<Item = &'a str> + Clone + use<'a> {
-        let file = self.file;
-        file.passes.iter().map(|pass| file.text(&pass.name))
-    }
-
-    fn place(&self, span: Span) -> Place {
-        self.file.source.place(span)
-    }
-
-    fn report(&mut self, diagnostic: Diagnostic) {
-        self.out.push(diagnostic);
-    }
-
-    /// Reports an unknown name with the near one, if there is one, and gives it; `suggestion` says how it is written.
-    fn report_unknown<'n>(
-        &mut self,
-        (code, place): (Code, Place),
-        message: String,
-        name: &str,
-        candidates: impl IntoIterator<Item = &'n str> + Clone,
-        suggestion: impl Fn(&str) -> String,
-    ) -> Option<&'n str> {
-        let mut diagnostic = Diagnostic::error(code, place, message);
-        let mut found = None;
-        if self.suggestions > 0 {
-            self.suggestions -= 1;
-            found = near(name, candidates.clone());
-            diagnostic = match found {
-                Some(near) => diagnostic.suggest(format!("did you mean `{}`?", suggestion(near))),
-                None => list_few(diagnostic, candidates, suggestion),
-            };
-        }
-        self.report(diagnostic);
-        found
-    }
+/// The graph of a file, complete only where nothing was reported.
+fn graph(request: &Request<'_>, out: &mut Mistakes) -> Graph {
+    let scope = Scope::of(request, out);
+    let params = params::read(&scope, out);
+    let settings = settings::read(&scope, &params, out);
+    let connections = connections::connect(&scope, out);
+    let outputs = connections::outputs(&scope, out);
+    let order = cycles::order(&scope, &connections, out);
+    let switches = switches::read(&scope, &params, out);
+    params.check_used(&scope, settings.used.iter().chain(&switches.used), out);
+    let feeds = switches::pass_through(&scope.passes, &order, &connections, &switches.enabled);
+    let flows = types::check(&scope, &order, &connections, &feeds, out);
+    let graph = Graph {
+        source: request.file.source.clone(),
+        about: request.file.about.clone(),
+        scene: outside::scene(&scope, out),
+        size: outside::size(request, out),
+        params: params.into_graph_params(&settings.uses),
+        passes: passes(&scope, settings.of_passes, &switches.enabled, switches.switched_by),
+        connections: connections.list,
+        outputs,
+        names: scope.names,
+        size_params: settings.size_params,
+        wiring: Wiring {
+            passes: scope.passes,
+            connection_to: connections.to,
+            history: connections.history,
+            order,
+            enabled: switches.enabled,
+            feeds,
+            flows,
+        },
+    };
+    out.extend(sizes::check(&graph, &connections.written));
+    graph
 }
 
-/// Names what there is, where that is little.
-fn list_few<'n>(
-    diagnostic: Diagnostic,
-    candidates: impl IntoIterator<Item = &'n str>,
-    suggestion: impl Fn(&str) -> String,
-) -> Diagnostic {
-    const MOST: usize = 12;
-    let few: Vec<String> =
-        candidates.into_iter().take(MOST + 1).map(|name| format!("`{}`", suggestion(name))).collect();
-    match few.len() {
-        0 => diagnostic.suggest("there is none"),
-        1..=MOST => diagnostic.suggest(format!("there is {}", few.join(", "))),
-        _ => diagnostic,
+fn passes(
+    scope: &Scope<'_>,
+    settings: settings::OfPasses,
+    enabled: &Table<Pass, bool>,
+    switched_by: Table<Pass, Option<String>>,
+) -> Table<Pass> {
+    let mut passes = Table::with_capacity(settings.len());
+    for ((pass, entry), (params, switch)) in scope.file.passes.entries().zip(settings.into_iter().zip(switched_by)) {
+        passes.push(Pass {
+            name: scope.file.text(&entry.name).to_owned(),
+            span: entry.name.span,
+            params,
+            enabled: enabled[pass],
+            switch,
+            kind: scope.passes.kind(pass).clone(),
+        });
     }
-}
-
-fn missing_file(path: &str, place: Place) -> Diagnostic {
-    Diagnostic::error(MISSING_FILE, place, format!("there is no file `{path}`"))
+    passes
 }

@@ -2,236 +2,218 @@
 
 use std::path::Path;
 
-use tyndall_document::{Decoder, Diagnostic, Diagnostics, Node, Place, Span, Value};
+use rustc_hash::FxHashMap;
+use tyndall_document::{Diagnostic, Place};
 
-use super::params::GraphValue;
-use super::values::{converted, kind_of, same_kind, typed, within};
-use super::{Validator, missing_file};
+use super::given::{Given, overrides, unknown_param};
+use super::mistakes::Mistakes;
+use super::params::{GraphValue, Params};
+use super::scope::{Scope, missing_file};
+use super::values::{converted, kind_of, same_kind, within};
 use crate::codes;
 use crate::descriptor::{PRESET, ParamDescriptor, ParamValue, PassDescriptor};
 use crate::file::PassEntry;
-use crate::graph::{ParamRef, ParamSetting, Pass};
+use crate::graph::{ParamRef, ParamSetting, Pass, SizeParam};
 use crate::handle::{Handle, Table};
-use crate::overrides::moved_to_argument;
+use crate::overrides::Override;
 
-type Settings = Table<ParamDescriptor, ParamSetting>;
+/// What every parameter of every pass is set to.
+#[derive(Default)]
+pub(super) struct Settings {
+    pub of_passes: OfPasses,
+    /// Which parameters of passes are set to a parameter of the graph.
+    pub uses: Vec<(Handle<GraphValue>, ParamRef)>,
+    /// The parameters of the graph that are named, also where that is a mistake.
+    pub used: Vec<Handle<GraphValue>>,
+    /// The parameters that set sizes, where they are set.
+    pub size_params: FxHashMap<ParamRef, SizeParam>,
+}
 
-impl<'a> Validator<'a> {
-    /// Sets every parameter of a pass: to its default or what a preset puts in its place, to what the file says, to
-    /// what the command line says.
-    pub(super) fn set_params(&mut self, pass: Handle<Pass>, entry: &'a PassEntry) {
-        let kind = self.kind_of(pass);
-        let params = &kind.descriptor.params;
-        let mut settings: Settings = params.iter().map(|param| ParamSetting::Value(param.default.clone())).collect();
-        let mut given = params.column(false);
-        let file = self.file;
+pub(super) type OfPasses = Table<Pass, OfPass>;
+type OfPass = Table<ParamDescriptor, ParamSetting>;
+
+/// Sets every parameter of every pass: to its default or what a preset puts in its place, to what the file says, to what
+/// the command line says.
+pub(super) fn read(scope: &Scope<'_>, params: &Params<'_>, out: &mut Mistakes) -> Settings {
+    let overrides = overrides(scope, out);
+    let mut reader = Reader { scope, params, overrides, settings: Settings::default(), out };
+    for (pass, entry) in scope.file.passes.entries() {
+        let settings = reader.pass(pass, entry);
+        reader.settings.of_passes.push(settings);
+    }
+    reader.settings
+}
+
+struct Reader<'s, 'a> {
+    scope: &'s Scope<'a>,
+    params: &'s Params<'a>,
+    overrides: FxHashMap<ParamRef, &'a Override>,
+    settings: Settings,
+    out: &'s mut Mistakes,
+}
+
+impl<'a> Reader<'_, 'a> {
+    fn pass(&mut self, pass: Handle<Pass>, entry: &'a PassEntry) -> OfPass {
+        let scope = self.scope;
+        let descriptor = &scope.passes.kind(pass).descriptor;
+        let mut settings: OfPass =
+            descriptor.params.iter().map(|param| ParamSetting::Value(param.default.clone())).collect();
+        let mut is_given = descriptor.params.column(false);
+        let by_file = self.given_by_file(pass, entry);
+        for (param, given) in by_file.into_iter().chain(self.given_by_command_line(pass, descriptor)) {
+            is_given[param] = true;
+            let at = ParamRef { pass, param };
+            if given.argument.is_some() {
+                self.settings.uses.retain(|(_, by)| *by != at);
+            }
+            if let Some(setting) = self.setting(&descriptor.params[param], at, given) {
+                settings[param] = setting;
+            }
+            if scope.passes.kind(pass).signature.size_params.contains(&param) {
+                self.size_param(&descriptor.params[param].name, at, &settings[param], given.place());
+            }
+        }
+        use_preset(descriptor, &mut settings, &is_given);
+        settings
+    }
+
+    fn given_by_file(&mut self, pass: Handle<Pass>, entry: &'a PassEntry) -> Vec<(Handle<ParamDescriptor>, Given<'a>)> {
+        let (scope, file) = (self.scope, self.scope.file);
+        let descriptor = &scope.passes.kind(pass).descriptor;
+        let mut found = Vec::with_capacity(entry.params.len());
         for entry in &entry.params {
             let name = file.text(&entry.name);
-            let Some(index) = kind.descriptor.param_named(name) else {
-                if self.is_known_pass(pass) {
-                    let message = format!("`{}` has no parameter named `{name}`", kind.descriptor.name);
-                    let place = self.place(entry.name.span);
-                    let names = params.iter().map(|param| param.name.as_str());
-                    self.report_unknown((codes::UNKNOWN_PARAMETER, place), message, name, names, str::to_owned);
-                }
-                self.mark_used(&entry.value);
+            let given = Given { node: &entry.value, source: &file.source, argument: None };
+            if let Some(param) = descriptor.param_named(name) {
+                found.push((param, given));
                 continue;
-            };
-            given[index] = true;
-            let param = ParamRef { pass, param: index };
-            if let Some(setting) = self.setting(&params[index], param, &entry.value) {
-                settings[index] = setting;
             }
-            self.size_place(param, &settings[index], self.place(entry.value.span));
+            if scope.is_known(pass) {
+                unknown_param(descriptor, name, scope.place(entry.name.span), str::to_owned, self.out);
+            }
+            self.settings.used.extend(given.reference().and_then(|name| self.params.find(name)));
         }
-        if !self.params.passes.is_empty() {
-            self.override_settings(pass, params, &mut settings, &mut given);
-        }
-        use_preset(&kind.descriptor, &mut settings, &given);
-        self.passes[pass].params = settings;
+        found
     }
 
-    fn override_settings(
-        &mut self,
+    fn given_by_command_line(
+        &self,
         pass: Handle<Pass>,
-        params: &Table<ParamDescriptor>,
-        settings: &mut Settings,
-        was_given: &mut Table<ParamDescriptor, bool>,
-    ) {
-        for (index, descriptor) in params.entries() {
-            let param = ParamRef { pass, param: index };
-            let Some(given) = self.params.passes.get(&param).copied() else { continue };
-            was_given[index] = true;
-            for value in &mut self.params.graph {
-                value.uses.retain(|other| *other != param);
-            }
-            let place = Place::Argument(given.argument.clone());
-            if reference(&given.value).is_some() {
-                if let Some(setting) = self.referred(descriptor, param, &given.value, place.clone()) {
-                    settings[index] = setting;
-                }
-            } else {
-                let mut out = Diagnostics::default();
-                let value = typed(&mut Decoder::new(&given.source, &mut out), descriptor, &given.value);
-                self.out.extend(moved_to_argument(out, &given.argument));
-                if let Some(value) = value {
-                    self.check_exists(&value, place.clone());
-                    settings[index] = ParamSetting::Value(value);
-                }
-            }
-            self.size_place(param, &settings[index], place);
+        descriptor: &PassDescriptor,
+    ) -> Vec<(Handle<ParamDescriptor>, Given<'a>)> {
+        if self.overrides.is_empty() {
+            return Vec::new();
         }
+        let given = |param| {
+            let Override { value, source, argument, .. } = self.overrides.get(&ParamRef { pass, param })?;
+            Some((param, Given { node: value, source, argument: Some(argument) }))
+        };
+        descriptor.params.handles().filter_map(given).collect()
     }
 
-    /// What an entry of the file sets a parameter to.
-    fn setting(&mut self, descriptor: &ParamDescriptor, param: ParamRef, node: &Node) -> Option<ParamSetting> {
-        if reference(node).is_some() {
-            let place = self.place(node.span);
-            return self.referred(descriptor, param, node, place);
+    /// What is given as a setting of a parameter.
+    fn setting(&mut self, descriptor: &ParamDescriptor, param: ParamRef, given: Given<'_>) -> Option<ParamSetting> {
+        if let Some(name) = given.reference() {
+            return self.referred(name, descriptor, param, given.place());
         }
-        let file = self.file;
-        let mut value = typed(&mut Decoder::new(&file.source, &mut self.out), descriptor, node)?;
-        if let ParamValue::File(path) = &mut value {
-            *path = self.beside_file(path);
-            self.check_exists(&value, self.place(node.span));
-        }
+        let mut value = given.typed(descriptor, self.out)?;
+        self.find_file(&mut value, given.argument.is_none(), given.place());
         Some(ParamSetting::Value(value))
     }
 
     /// What `$name` sets a parameter to. `place` is where it stands.
     fn referred(
         &mut self,
+        name: &str,
         descriptor: &ParamDescriptor,
         param: ParamRef,
-        node: &Node,
         place: Place,
     ) -> Option<ParamSetting> {
-        let name = reference(node)?;
-        let fits = |numbers: &[ParamValue]| numbers.iter().any(|number| same_kind(number, &descriptor.default));
-        match name {
-            "frame" if fits(&[ParamValue::Integer(0), ParamValue::Float(0.0)]) => return Some(ParamSetting::Frame),
-            "time" if fits(&[ParamValue::Float(0.0)]) => return Some(ParamSetting::Time),
-            "frame" | "time" => {
-                let what = if name == "time" { "a number of seconds" } else { "a whole number" };
-                let message = format!("`{}` is {}, and ${name} is {what}", descriptor.name, kind_of(descriptor));
-                self.report(Diagnostic::error(codes::WRONG_REFERENCE_TYPE, place, message));
-                return None;
-            }
-            _ => {}
+        if let "frame" | "time" = name {
+            return self.live(name, descriptor, place);
         }
-        let index = self.graph_param(name, &place)?;
-        let value = self.params.graph[index].value.clone()?;
-        let definition = self.place(self.params.graph[index].definition);
-        let given = &mut self.params.graph[index];
-        given.uses.push(param);
+        let found = self.params.resolve(self.scope, name, &place, self.out);
+        self.settings.used.extend(found.map_or_else(|meant| meant, Some));
+        let found = found.ok()?;
+        let source = &self.params.values[found];
+        let value = source.value.clone()?;
+        self.settings.uses.push((found, param));
         let Some(mut value) = converted(value, &descriptor.default) else {
-            let message = format!("`{}` is {}, and ${name} is not", descriptor.name, kind_of(descriptor));
-            let diagnostic = if given.overridden {
-                Diagnostic::error(codes::WRONG_REFERENCE_TYPE, given.place.clone(), message).relate(place, "used here")
-            } else {
-                Diagnostic::error(codes::WRONG_REFERENCE_TYPE, place, message).relate(definition, "defined here")
-            };
-            self.report(diagnostic);
+            self.report_other_type(source, descriptor, place);
             return None;
         };
-        let (value_place, overridden) = (given.place.clone(), given.overridden);
         if let Err(mistake) = within(descriptor, &value) {
-            self.report(mistake.at(value_place).relate(place, "used here"));
+            self.out.report(mistake.at(source.place.clone()).relate(place, "used here"));
             return None;
         }
-        if let ParamValue::File(path) = &mut value {
-            if !overridden {
-                *path = self.beside_file(path);
-            }
-            self.check_exists(&value, value_place);
-        }
+        self.find_file(&mut value, !source.overridden, source.place.clone());
         Some(ParamSetting::Value(value))
     }
 
-    /// The parameter of the graph that `$name` means.
-    pub(super) fn graph_param(&mut self, name: &str, place: &Place) -> Option<Handle<GraphValue>> {
-        let found = self.params.by_name.get(name).copied();
-        match found {
-            Some(index) => self.params.graph[index].used = true,
-            None => {
-                let message = format!("the graph has no parameter named `{name}`");
-                let file = self.file;
-                let names = file.params.iter().map(|param| file.text(&param.name)).chain(["frame", "time"]);
-                let code = (codes::UNKNOWN_NAME, place.clone());
-                let near = self.report_unknown(code, message, name, names, |near| format!("${near}"));
-                // What was probably meant is not unused as well.
-                if let Some(index) = near.and_then(|near| self.params.by_name.get(near)) {
-                    self.params.graph[*index].used = true;
-                }
+    /// A parameter that is set to `$frame` or `$time`.
+    fn live(&mut self, name: &str, descriptor: &ParamDescriptor, place: Place) -> Option<ParamSetting> {
+        let fits = |number: ParamValue| same_kind(&number, &descriptor.default);
+        match name {
+            "frame" if fits(ParamValue::Integer(0)) || fits(ParamValue::Float(0.0)) => Some(ParamSetting::Frame),
+            "time" if fits(ParamValue::Float(0.0)) => Some(ParamSetting::Time),
+            _ => {
+                let what = if name == "time" { "a number of seconds" } else { "a whole number" };
+                let message = format!("`{}` is {}, and ${name} is {what}", descriptor.name, kind_of(descriptor));
+                self.out.report(Diagnostic::error(codes::WRONG_REFERENCE_TYPE, place, message));
+                None
             }
         }
-        found
     }
 
-    /// A parameter that only a mistake uses is not unused as well.
-    fn mark_used(&mut self, node: &Node) {
-        let index = reference(node).and_then(|name| self.params.by_name.get(name));
-        if let Some(index) = index {
-            self.params.graph[*index].used = true;
+    fn report_other_type(&mut self, source: &GraphValue, descriptor: &ParamDescriptor, place: Place) {
+        let message = format!("`{}` is {}, and ${} is not", descriptor.name, kind_of(descriptor), source.name);
+        let (at, related, what) = match source.overridden {
+            true => (source.place.clone(), place, "used here"),
+            false => (place, self.scope.place(source.definition), "defined here"),
+        };
+        self.out.report(Diagnostic::error(codes::WRONG_REFERENCE_TYPE, at, message).relate(related, what));
+    }
+
+    /// Makes a path relative to the working directory, if it is beside the graph's file, and looks whether the file is
+    /// there.
+    fn find_file(&mut self, value: &mut ParamValue, is_beside_file: bool, place: Place) {
+        let ParamValue::File(path) = value else { return };
+        if is_beside_file {
+            *path = self.scope.beside_file(path);
         }
-    }
-
-    fn check_exists(&mut self, value: &ParamValue, place: Place) {
-        if let ParamValue::File(path) = value
-            && !path.contains("####")
-            && !(self.exists)(Path::new(path))
-        {
-            self.report(missing_file(path, place));
+        if !path.contains("####") && !self.scope.exists(path) {
+            self.out.report(missing_file(path, place));
         }
     }
 
     /// Remembers where a parameter that sets a size is set, and refuses one that changes with the frame.
-    fn size_place(&mut self, param: ParamRef, setting: &ParamSetting, place: Place) {
-        let kind = self.kind_of(param.pass);
-        if !kind.signature.size_params.contains(&param.param) {
-            return;
+    fn size_param(&mut self, name: &str, param: ParamRef, setting: &ParamSetting, place: Place) {
+        let mut picture = None;
+        match setting {
+            ParamSetting::Value(ParamValue::File(path)) => {
+                let size = self.scope.request.catalogue.picture_size.and_then(|size| size(Path::new(path)));
+                // A file that is not there has been reported already.
+                picture = size.or_else(|| (!self.scope.exists(path)).then_some((1, 1)));
+            }
+            ParamSetting::Value(_) => {}
+            ParamSetting::Frame | ParamSetting::Time => {
+                let message = format!("`{name}` sets the size of a port, and cannot change from frame to frame");
+                self.out.report(Diagnostic::error(codes::LIVE_SIZE, place.clone(), message));
+            }
         }
-        if !matches!(setting, ParamSetting::Value(_)) {
-            let name = &kind.descriptor.params[param.param].name;
-            let message = format!("`{name}` sets the size of a port, and cannot change from frame to frame");
-            self.report(Diagnostic::error(codes::LIVE_SIZE, place.clone(), message));
-        }
-        if let ParamSetting::Value(ParamValue::File(path)) = setting {
-            let size = self.catalogue.picture_size.and_then(|size| size(Path::new(path)));
-            // A file that is not there has been reported already.
-            let size = size.or_else(|| (!(self.exists)(Path::new(path))).then_some((1, 1)));
-            // A later setting of the command line replaces that of the file, also where it is no picture.
-            match size {
-                Some(size) => self.pictures.insert(param, size),
-                None => self.pictures.remove(&param),
-            };
-        }
-        self.size_param_places.insert(param, place);
-    }
-
-    /// Where a pass's name stands.
-    pub(super) fn pass_span(&self, pass: Handle<Pass>) -> Span {
-        self.file.passes[pass].name.span
+        self.settings.size_params.insert(param, SizeParam { place, picture });
     }
 }
 
 /// Puts the values of the chosen preset in the place of the defaults of all parameters that are not given.
-fn use_preset(descriptor: &PassDescriptor, settings: &mut Settings, given: &Table<ParamDescriptor, bool>) {
-    let chosen = descriptor.param_named(PRESET).and_then(|index| match &settings[index] {
+fn use_preset(descriptor: &PassDescriptor, settings: &mut OfPass, is_given: &Table<ParamDescriptor, bool>) {
+    let chosen = descriptor.param_named(PRESET).and_then(|param| match &settings[param] {
         ParamSetting::Value(ParamValue::Choice(word)) => descriptor.presets.iter().find(|preset| preset.name == *word),
         _ => None,
     });
     for (name, value) in chosen.map(|preset| preset.values.as_slice()).unwrap_or_default() {
-        if let Some(index) = descriptor.param_named(name).filter(|index| !given[*index]) {
-            settings[index] = ParamSetting::Value(value.clone());
+        if let Some(param) = descriptor.param_named(name).filter(|param| !is_given[*param]) {
+            settings[param] = ParamSetting::Value(value.clone());
         }
-    }
-}
-
-/// The name behind the `$`.
-fn reference(node: &Node) -> Option<&str> {
-    match &node.value {
-        Value::Text(text) => text.strip_prefix('$'),
-        _ => None,
     }
 }

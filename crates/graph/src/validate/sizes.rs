@@ -2,27 +2,23 @@
 
 use tyndall_document::{Diagnostic, Place};
 
-use super::Validator;
 use crate::codes;
 use crate::descriptor::ParamValue;
 use crate::graph::{Graph, ParamRef, ParamSetting, PortRef};
 use crate::plan::sizes::{Size, SizeProblem, sizes};
+use crate::wiring::Feeds;
 
-impl Validator<'_> {
-    /// Checks the sizes that the frame's size gives: of the graph as written, and with its switches.
-    pub(super) fn check_sizes(&mut self, graph: &Graph) {
-        if graph.size.0 == 0 || graph.size.1 == 0 {
-            return;
-        }
-        let (_, mut problems) = sizes(graph, &self.written, graph.size);
-        if graph.wiring.enabled.iter().any(|on| !on) {
-            let (_, switched) = sizes(graph, &graph.wiring.feeds, graph.size);
-            problems.extend(switched.into_iter().filter(|problem| !same_port(&problems, problem)).collect::<Vec<_>>());
-        }
-        for mistake in size_mistakes(graph, &problems) {
-            self.report(mistake);
-        }
+/// What is wrong with the sizes that the frame's size gives: of the graph as written, and with its switches.
+pub(super) fn check(graph: &Graph, written: &Feeds) -> Vec<Diagnostic> {
+    if graph.size.0 == 0 || graph.size.1 == 0 {
+        return Vec::new();
     }
+    let (_, mut problems) = sizes(graph, written, graph.size);
+    if graph.wiring.feeds != *written {
+        let (_, switched) = sizes(graph, &graph.wiring.feeds, graph.size);
+        problems.extend(switched.into_iter().filter(|problem| !same_port(&problems, problem)).collect::<Vec<_>>());
+    }
+    size_mistakes(graph, &problems)
 }
 
 fn same_port(problems: &[SizeProblem], problem: &SizeProblem) -> bool {
@@ -61,13 +57,13 @@ fn mistake(graph: &Graph, problem: &SizeProblem) -> Option<Diagnostic> {
 
 /// Where a parameter is set that sets a size; of one that is not, its pass.
 fn place_of(graph: &Graph, param: ParamRef) -> Place {
-    let place = graph.size_param_places.get(&param).cloned();
+    let place = graph.size_params.get(&param).map(|param| param.place.clone());
     place.unwrap_or_else(|| graph.place(graph.pass(param.pass).span))
 }
 
 fn differs(graph: &Graph, port: PortRef, fed: Size, demanded: Size) -> Option<Diagnostic> {
     let connection = graph.connection_to(port)?;
-    let axes = graph.wiring.signature(port).axes;
+    let axes = graph.signature(port).axes;
     let port = graph.port(port);
     let rule = port.size.as_ref().map(ToString::to_string).unwrap_or_default();
     let (demanded, fed) = (size_words(&demanded[..axes]), size_words(&fed[..axes]));

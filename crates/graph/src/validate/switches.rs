@@ -1,93 +1,96 @@
 //! Passes that are switched off, and what flows in their place.
 
-use tyndall_document::Diagnostic;
+use tyndall_document::{Diagnostic, Place};
 
-use super::Validator;
-use super::params::{GraphValue, kind_name};
+use super::connections::Connections;
+use super::mistakes::Mistakes;
+use super::params::{GraphValue, Params};
+use super::scope::Scope;
+use super::values::kind_name;
 use crate::codes;
 use crate::descriptor::ParamValue;
-use crate::file::Switch;
+use crate::file::{Spanned, Switch};
 use crate::graph::Pass;
-use crate::handle::Handle;
+use crate::handle::{Handle, Table};
 use crate::signature::RoleKind;
-use crate::wiring::Feed;
+use crate::wiring::{Feed, Feeds, Passes};
 
-impl Validator<'_> {
-    /// Decides which passes are on, and what feeds every port once the others are gone.
-    pub(super) fn switch_passes(&mut self) {
-        let mut any_off = false;
-        for pass in self.passes.handles() {
-            let on = self.is_on(pass);
-            any_off |= !on;
-            self.wiring.enabled[pass] = on;
-            self.passes[pass].enabled = on;
-        }
-        self.wiring.feeds = self.written.clone();
-        if !any_off {
-            return;
-        }
-        for pass in self.wiring.order.clone() {
-            self.pass_through(pass);
-        }
-        for port in self.wiring.history.clone() {
-            self.wiring.feeds[port] = self.flowing(self.written[port]);
-        }
-    }
+/// Which passes are on, and what decides it.
+pub(super) struct Switches {
+    pub enabled: Table<Pass, bool>,
+    /// The parameter of the graph that switches a pass.
+    pub switched_by: Table<Pass, Option<String>>,
+    /// The parameters of the graph that are named.
+    pub used: Vec<Handle<GraphValue>>,
+}
 
-    fn is_on(&mut self, pass: Handle<Pass>) -> bool {
-        let file = self.file;
-        let Some(switch) = &file.passes[pass].enabled else { return true };
-        match &switch.value {
-            Switch::Fixed(on) => *on,
+/// Reads what `enabled` says of each pass.
+pub(super) fn read(scope: &Scope<'_>, params: &Params<'_>, out: &mut Mistakes) -> Switches {
+    let passes = &scope.file.passes;
+    let mut switches = Switches { enabled: passes.column(true), switched_by: passes.column(None), used: Vec::new() };
+    for (pass, entry) in passes.entries() {
+        let Some(Spanned { value: switch, span }) = &entry.enabled else { continue };
+        match switch {
+            Switch::Fixed(on) => switches.enabled[pass] = *on,
             Switch::Param(name) => {
-                self.passes[pass].switch = Some(name.clone());
-                let place = self.place(switch.span);
-                self.graph_param(name, &place).is_none_or(|index| self.switch_value(index, place))
+                let place = scope.place(*span);
+                let found = params.resolve(scope, name, &place, out);
+                switches.used.extend(found.map_or_else(|meant| meant, Some));
+                switches.enabled[pass] = found.map_or(true, |param| is_on(scope, &params.values[param], place, out));
+                switches.switched_by[pass] = Some(name.clone());
             }
         }
     }
+    switches
+}
 
-    fn switch_value(&mut self, index: Handle<GraphValue>, place: tyndall_document::Place) -> bool {
-        let param = &self.params.graph[index];
-        match &param.value {
-            Some(ParamValue::Bool(on)) => *on,
-            None => true,
-            Some(other) => {
-                let message = format!("`enabled` is a switch, and ${} is {}", param.name, kind_name(other));
-                let definition = self.place(param.definition);
-                let diagnostic = Diagnostic::error(codes::WRONG_REFERENCE_TYPE, place, message);
-                self.report(diagnostic.relate(definition, "defined here"));
-                true
-            }
+/// Whether a parameter switches a pass on; where a mistake hides it, it does.
+fn is_on(scope: &Scope<'_>, param: &GraphValue, place: Place, out: &mut Mistakes) -> bool {
+    match &param.value {
+        Some(ParamValue::Bool(on)) => *on,
+        None => true,
+        Some(other) => {
+            let message = format!("`enabled` is a switch, and ${} is {}", param.name, kind_name(other));
+            let diagnostic = Diagnostic::error(codes::WRONG_REFERENCE_TYPE, place, message);
+            out.report(diagnostic.relate(scope.place(param.definition), "defined here"));
+            true
         }
     }
+}
 
-    fn pass_through(&mut self, pass: Handle<Pass>) {
-        let ports = self.wiring.ports[pass];
-        let kind = self.kind_of(pass);
-        for (number, port) in ports.handles().zip(&kind.signature.ports) {
-            if port.role.reads_this_frame() {
-                self.wiring.feeds[number] = self.flowing(self.written[number]);
-            }
+/// What feeds every port once the passes that are off are gone.
+pub(super) fn pass_through(
+    passes: &Passes,
+    order: &[Handle<Pass>],
+    connections: &Connections,
+    enabled: &Table<Pass, bool>,
+) -> Feeds {
+    let written = &connections.written;
+    let mut feeds = written.clone();
+    if enabled.iter().all(|on| *on) {
+        return feeds;
+    }
+    // Past every pass that is off.
+    let flowing = |feeds: &Feeds, feed: Feed| match feed {
+        Feed::Port(source) if !enabled[passes.pass_of[source]] => feeds[source],
+        _ => feed,
+    };
+    for pass in order {
+        for (port, _) in passes.ports_of(*pass).filter(|(_, port)| port.role.reads_this_frame()) {
+            feeds[port] = flowing(&feeds, written[port]);
         }
-        if self.wiring.enabled[pass] {
-            return;
+        if enabled[*pass] {
+            continue;
         }
-        for (number, port) in ports.handles().zip(&kind.signature.ports) {
-            if port.role == RoleKind::Output {
-                self.wiring.feeds[number] = match port.through {
-                    Some(input) => self.wiring.feeds[ports.at(input)],
-                    None => Feed::Constant(number),
-                };
-            }
+        for (port, signature) in passes.ports_of(*pass).filter(|(_, port)| port.role == RoleKind::Output) {
+            feeds[port] = match signature.through {
+                Some(input) => feeds[passes.ports[*pass].at(input)],
+                None => Feed::Constant(port),
+            };
         }
     }
-
-    /// What flows where the file connects a port: past every pass that is off.
-    fn flowing(&self, feed: Feed) -> Feed {
-        match feed.as_port() {
-            Some(source) if !self.wiring.enabled[self.wiring.pass_of[source]] => self.wiring.feeds[source],
-            _ => feed,
-        }
+    for port in &connections.history {
+        feeds[*port] = flowing(&feeds, written[*port]);
     }
+    feeds
 }

@@ -2,115 +2,105 @@
 
 use tyndall_document::{Code, Diagnostic};
 
-use super::Validator;
+use super::connections::Connections;
+use super::mistakes::Mistakes;
+use super::scope::Scope;
 use crate::codes;
 use crate::descriptor::{Class, Format, PortDescriptor, PortKind};
-use crate::graph::{Pass, PortRef};
-use crate::handle::Handle;
+use crate::graph::Pass;
+use crate::handle::{Handle, Table};
 use crate::signature::RoleKind;
-use crate::wiring::{Feeds, Flow, GraphPort, Shape};
+use crate::wiring::{Feeds, Flow, GraphPort, Passes, Shape};
 
-impl Validator<'_> {
-    /// Checks every connection as the file has it, and again where switched-off passes are passed through.
-    pub(super) fn check_types(&mut self) {
-        let written = std::mem::take(&mut self.written);
-        self.flow(&written);
-        self.check_edges(&written, |_| true);
-        if self.wiring.enabled.iter().any(|on| !on) {
-            let effective = self.wiring.feeds.clone();
-            self.flow(&effective);
-            self.check_edges(&effective, |number| written[number] != effective[number]);
-        }
-        self.written = written;
+type Flows = Table<GraphPort, Flow>;
+
+/// Checks every connection as the file has it, and again where switched-off passes are passed through; gives what flows
+/// through every port then.
+pub(super) fn check(
+    scope: &Scope<'_>,
+    order: &[Handle<Pass>],
+    connections: &Connections,
+    feeds: &Feeds,
+    out: &mut Mistakes,
+) -> Flows {
+    let (passes, written) = (&scope.passes, &connections.written);
+    let as_written = flows(passes, order, connections, written);
+    for port in passes.pass_of.handles() {
+        check_edge(scope, written, &as_written, port, out);
     }
+    if feeds == written {
+        return as_written;
+    }
+    let flows = flows(passes, order, connections, feeds);
+    for port in passes.pass_of.handles().filter(|port| feeds[*port] != written[*port]) {
+        check_edge(scope, feeds, &flows, port, out);
+    }
+    flows
+}
 
-    /// Finds what flows through every port.
-    fn flow(&mut self, feeds: &Feeds) {
-        self.flow_of_outputs();
-        for pass in self.wiring.order.clone() {
-            self.flow_of_pass(pass, feeds);
-        }
-        for port in &self.wiring.history {
-            if let Some(source) = feeds[*port].like() {
-                self.wiring.flows[*port] = self.wiring.flows[source];
+/// Finds what flows through every port.
+fn flows(passes: &Passes, order: &[Handle<Pass>], connections: &Connections, feeds: &Feeds) -> Flows {
+    let mut flows = passes.pass_of.column(Flow::UNKNOWN);
+    for pass in passes.kind_of.handles() {
+        for (port, signature) in passes.ports_of(pass) {
+            if signature.role == RoleKind::Output && signature.like.is_none() {
+                flows[port] = declared(passes.descriptor(port), Flow::UNKNOWN);
             }
         }
     }
-
-    /// Of outputs this is in the descriptor, but for those of any class.
-    fn flow_of_outputs(&mut self) {
-        for pass in self.passes.handles() {
-            let kind = self.kind_of(pass);
-            for (number, (port, descriptor)) in
-                self.wiring.ports[pass].handles().zip(kind.signature.ports.iter().zip(&kind.descriptor.ports))
-            {
-                self.wiring.flows[number] = match port.role {
-                    RoleKind::Output if port.like.is_none() => declared(descriptor, Flow::UNKNOWN),
-                    _ => Flow::UNKNOWN,
-                };
-            }
-        }
-    }
-
-    fn flow_of_pass(&mut self, pass: Handle<Pass>, feeds: &Feeds) {
-        let kind = self.kind_of(pass);
-        let ports = self.wiring.ports[pass];
-        let numbered = || ports.handles().zip(kind.signature.ports.iter().zip(&kind.descriptor.ports));
-        for (number, (_, descriptor)) in numbered().filter(|(_, (port, _))| port.role.reads_this_frame()) {
-            self.wiring.flows[number] = match feeds[number].like() {
-                Some(source) if source != number => self.wiring.flows[source],
-                Some(_) => absent(descriptor),
+    for pass in order {
+        for (port, _) in passes.ports_of(*pass).filter(|(_, port)| port.role.reads_this_frame()) {
+            flows[port] = match feeds[port].like() {
+                Some(source) if source != port => flows[source],
+                Some(_) => absent(passes.descriptor(port)),
                 None => Flow::UNKNOWN,
             };
         }
-        for (number, (port, descriptor)) in numbered() {
-            if let Some(like) = port.like {
-                self.wiring.flows[number] = declared(descriptor, self.wiring.flows[ports.at(like)]);
+        for (port, signature) in passes.ports_of(*pass) {
+            if let Some(like) = signature.like {
+                flows[port] = declared(passes.descriptor(port), flows[passes.ports[*pass].at(like)]);
             }
         }
     }
-
-    fn check_edges(&mut self, feeds: &Feeds, concerns: impl Fn(Handle<GraphPort>) -> bool) {
-        for pass in self.passes.handles() {
-            let kind = self.kind_of(pass);
-            for (number, port) in self.wiring.ports[pass].handles().zip(&kind.signature.ports) {
-                if port.role.is_input()
-                    && concerns(number)
-                    && let Some(source) = feeds[number].like().filter(|source| *source != number)
-                    && let Some(mistake) = self.mistake(number, source)
-                {
-                    self.report_edge(number, source, mistake);
-                }
-            }
+    for port in &connections.history {
+        if let Some(source) = feeds[*port].like() {
+            flows[*port] = flows[source];
         }
     }
+    flows
+}
 
-    /// What is wrong with feeding a port from the port `source`.
-    fn mistake(&self, number: Handle<GraphPort>, source: Handle<GraphPort>) -> Option<(Code, String)> {
-        let (demanded, fed) = (self.descriptor_of(number), self.descriptor_of(source));
-        kind_mistake(demanded, fed, self.wiring.flows[source]).or_else(|| unit_mistake(demanded, fed))
+/// Reports what is wrong with what is fed to a port, if it is an input.
+fn check_edge(scope: &Scope<'_>, feeds: &Feeds, flows: &Flows, port: Handle<GraphPort>, out: &mut Mistakes) {
+    let passes = &scope.passes;
+    if !passes.signature(port).role.is_input() {
+        return;
     }
+    let Some(source) = feeds[port].like().filter(|source| *source != port) else { return };
+    let (demanded, fed) = (passes.descriptor(port), passes.descriptor(source));
+    let mistake = kind_mistake(demanded, fed, flows[source]).or_else(|| unit_mistake(demanded, fed));
+    out.extend(mistake.and_then(|mistake| edge_mistake(scope, port, source, mistake)));
+}
 
-    fn descriptor_of(&self, number: Handle<GraphPort>) -> &PortDescriptor {
-        let PortRef { pass, port } = self.wiring.port_ref(number);
-        &self.kind_of(pass).descriptor.ports[port]
-    }
-
-    fn report_edge(&mut self, number: Handle<GraphPort>, source: Handle<GraphPort>, (code, message): (Code, String)) {
-        let (pass, writer) = (self.wiring.pass_of[number], self.wiring.pass_of[source]);
-        let file = self.file;
-        let name = &self.descriptor_of(number).name;
-        let from = format!("{}.{}", file.text(&file.passes[writer].name), self.descriptor_of(source).name);
-        let input = file.passes[pass].inputs.iter().find(|input| file.text(&input.name) == name);
-        let Some(named) = input.and_then(|input| input.from.as_ref()) else { return };
-        let message = match from == file.text(named) {
-            true => message,
-            false => format!("{message} (`{}` is switched off, so `{from}` flows here)", file.text(named)),
-        };
-        let diagnostic = Diagnostic::error(code, self.place(named.span), message);
-        let related = self.place(self.pass_span(writer));
-        self.report(diagnostic.relate(related, format!("`{from}` is written here")));
-    }
+/// What is wrong with a connection, in words.
+fn edge_mistake(
+    scope: &Scope<'_>,
+    port: Handle<GraphPort>,
+    source: Handle<GraphPort>,
+    (code, message): (Code, String),
+) -> Option<Diagnostic> {
+    let (passes, file) = (&scope.passes, scope.file);
+    let writer = passes.pass_of[source];
+    let from = format!("{}.{}", scope.name(writer), passes.descriptor(source).name);
+    let mut inputs = file.passes[passes.pass_of[port]].inputs.iter();
+    let input = inputs.find(|input| file.text(&input.name) == passes.descriptor(port).name)?;
+    let named = input.from.as_ref()?;
+    let message = match from == file.text(named) {
+        true => message,
+        false => format!("{message} (`{}` is switched off, so `{from}` flows here)", file.text(named)),
+    };
+    let diagnostic = Diagnostic::error(code, scope.place(named.span), message);
+    Some(diagnostic.relate(scope.place_of(writer), format!("`{from}` is written here")))
 }
 
 /// What an output declares; what it leaves open it has of `like`.

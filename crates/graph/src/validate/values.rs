@@ -2,7 +2,6 @@
 
 use tyndall_document::{Code, Decoder, Diagnostic, Node, Place, Value, near};
 
-use super::params::numbers;
 use crate::codes;
 use crate::descriptor::{ParamDescriptor, ParamValue};
 
@@ -122,4 +121,20 @@ fn unknown_choice(param: &ParamDescriptor, word: &str) -> Mistake {
     let near = near(word, param.choices.iter().map(String::as_str));
     let suggestion = near.map(|near| format!("did you mean `{near}`?"));
     Mistake { suggestion, ..Mistake::new(codes::UNKNOWN_CHOICE, message) }
+}
+
+/// Every number of a tuple; all that are wrong are reported.
+pub(super) fn numbers(decoder: &mut Decoder<'_>, parts: &[Node]) -> Option<Vec<f64>> {
+    let numbers: Vec<Option<f64>> = parts.iter().map(|part| decoder.float(part)).collect();
+    numbers.into_iter().collect()
+}
+
+/// What a value is, in words; an integer is a number like any other.
+pub(super) fn kind_name(value: &ParamValue) -> &'static str {
+    match value {
+        ParamValue::Bool(_) => "a switch",
+        ParamValue::Integer(_) | ParamValue::Float(_) => "a number",
+        ParamValue::Vector(parts) => ["", "", "2 numbers", "3 numbers", "4 numbers"][parts.len().min(4)],
+        ParamValue::Choice(_) | ParamValue::File(_) => "a text",
+    }
 }

@@ -89,7 +89,7 @@ impl<'a> Scan<'a> {
     fn new(wiring: &'a Wiring, sizes: &'a Sizes, draft: &'a Draft, policy: Policy) -> Self {
         let mut latest = Table::new();
         let ports_of_kind =
-            wiring.kinds.iter().map(|kind| latest.push_for(&kind.signature.ports, Latest::default())).collect();
+            wiring.passes.kinds.iter().map(|kind| latest.push_for(&kind.signature.ports, Latest::default())).collect();
         let mut scan = Self {
             wiring,
             sizes,
@@ -99,7 +99,10 @@ impl<'a> Scan<'a> {
                 ports: Table::with_capacity(draft.ports.len()),
                 slots: Table::new(),
                 steps: Vec::with_capacity(draft.passes.len() + 16),
-                bindings: Bindings { slots: wiring.pass_of.column(None), sources: wiring.pass_of.column(None) },
+                bindings: Bindings {
+                    slots: wiring.passes.pass_of.column(None),
+                    sources: wiring.passes.pass_of.column(None),
+                },
                 classes: Table::new(),
             },
             class_of: FxHashMap::default(),
@@ -121,7 +124,7 @@ impl<'a> Scan<'a> {
     fn own_slots(&self) -> Table<PlannedPort, bool> {
         let mut own: Table<PlannedPort, bool> = self.draft.ports.iter().map(|port| port.kept).collect();
         for (position, planned) in self.draft.passes.entries().rev() {
-            for (number, port) in self.wiring.ports_of(planned.pass) {
+            for (number, port) in self.wiring.passes.ports_of(planned.pass) {
                 if port.role == RoleKind::InOut
                     && self.draft.planned[number].is_some_and(|port| own[port])
                     && let Some(source) = self.source(number)
@@ -136,7 +139,7 @@ impl<'a> Scan<'a> {
 
     fn pass(&mut self, position: Handle<PlannedPass>) {
         let wiring = self.wiring;
-        for (number, port) in wiring.ports_of(self.draft.passes[position].pass) {
+        for (number, port) in wiring.passes.ports_of(self.draft.passes[position].pass) {
             let (slot, source) = match port.role {
                 RoleKind::Output => (self.written(number), None),
                 RoleKind::InOut => self.changed(number, position),
@@ -203,7 +206,7 @@ impl<'a> Scan<'a> {
             return false;
         }
         let feeds = &self.wiring.feeds;
-        let mut ports = self.wiring.ports[self.draft.passes[position].pass].handles();
+        let mut ports = self.wiring.passes.ports[self.draft.passes[position].pass].handles();
         !ports.any(|other| other != number && feeds[other] == feeds[number])
     }
 
@@ -220,8 +223,8 @@ impl<'a> Scan<'a> {
     }
 
     fn kind_port(&self, number: Handle<GraphPort>) -> Handle<KindPort> {
-        let port = self.wiring.port_ref(number);
-        self.ports_of_kind[self.wiring.kind_of[port.pass]].at(port.port)
+        let port = self.wiring.passes.port_ref(number);
+        self.ports_of_kind[self.wiring.passes.kind_of[port.pass]].at(port.port)
     }
 
     /// The class of what an output writes.

@@ -24,7 +24,7 @@ impl Scan<'_> {
     /// The constant that stands for the input `number`, or for an output of a pass that is switched off.
     pub(super) fn constant_for(&mut self, number: Handle<GraphPort>) -> Handle<Slot> {
         let number = self.wiring.feeds[number].as_constant().unwrap_or(number);
-        let value = self.wiring.signature(self.wiring.port_ref(number)).constant;
+        let value = self.wiring.passes.signature(number).constant;
         let resource = self.resource(number);
         let at = self.kind_port(number);
         let is_it = |slot: &Slot| {
@@ -55,7 +55,7 @@ impl Scan<'_> {
     /// Constants that were asked for, what is read back, and what is carried to the next frame.
     pub(super) fn finish(&mut self) {
         for port in self.draft.ports.iter().filter(|port| port.pass.is_none()) {
-            let slot = self.constant_for(self.wiring.port(port.port));
+            let slot = self.constant_for(self.wiring.passes.port(port.port));
             self.hold(slot, false);
         }
         for root in &self.draft.roots {

@@ -1,0 +1,74 @@
+//! Mistakes as the steps find them.
+
+use tyndall_document::{Code, Diagnostic, Diagnostics, Place, near};
+
+/// Names for which a near one is sought in one file: the search is not cheap, and nobody reads more.
+const MOST_SUGGESTIONS: u32 = 100;
+
+/// What the steps have found so far.
+pub(super) struct Mistakes {
+    found: Diagnostics,
+    suggestions: u32,
+}
+
+impl Mistakes {
+    pub fn new() -> Self {
+        Self { found: Diagnostics::default(), suggestions: MOST_SUGGESTIONS }
+    }
+
+    /// Where a [`Decoder`](tyndall_document::Decoder) reports what it finds.
+    pub fn diagnostics(&mut self) -> &mut Diagnostics {
+        &mut self.found
+    }
+
+    pub fn into_diagnostics(self) -> Diagnostics {
+        self.found
+    }
+
+    pub fn extend(&mut self, diagnostics: impl IntoIterator<Item = Diagnostic>) {
+        self.found.extend(diagnostics);
+    }
+
+    pub fn report(&mut self, diagnostic: Diagnostic) {
+        self.found.push(diagnostic);
+    }
+
+    /// Reports an unknown name with the near one, if there is one, and gives it; `suggestion` says how it is written.
+    pub fn report_unknown<'n>(
+        &mut self,
+        (code, place): (Code, Place),
+        message: String,
+        name: &str,
+        candidates: impl IntoIterator<Item = &'n str> + Clone,
+        suggestion: impl Fn(&str) -> String,
+    ) -> Option<&'n str> {
+        let mut diagnostic = Diagnostic::error(code, place, message);
+        let mut found = None;
+        if self.suggestions > 0 {
+            self.suggestions -= 1;
+            found = near(name, candidates.clone());
+            diagnostic = match found {
+                Some(near) => diagnostic.suggest(format!("did you mean `{}`?", suggestion(near))),
+                None => list_few(diagnostic, candidates, suggestion),
+            };
+        }
+        self.report(diagnostic);
+        found
+    }
+}
+
+/// Names what there is, where that is little.
+fn list_few<'n>(
+    diagnostic: Diagnostic,
+    candidates: impl IntoIterator<Item = &'n str>,
+    suggestion: impl Fn(&str) -> String,
+) -> Diagnostic {
+    const MOST: usize = 12;
+    let few: Vec<String> =
+        candidates.into_iter().take(MOST + 1).map(|name| format!("`{}`", suggestion(name))).collect();
+    match few.len() {
+        0 => diagnostic.suggest("there is none"),
+        1..=MOST => diagnostic.suggest(format!("there is {}", few.join(", "))),
+        _ => diagnostic,
+    }
+}
