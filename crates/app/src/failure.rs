@@ -12,40 +12,40 @@ pub(crate) enum Failure {
     Mistakes(Diagnostics),
     /// The command line is wrong.
     Usage(String),
-    /// The machine cannot do it, or a pass found a file wrong.
+    /// The machine cannot do it, or a pass cannot use a file.
     Gpu(GpuError),
     /// A file could not be read or written.
     File(tyndall_image::Error),
-    /// All that had to be said has been said.
-    Told(u8),
+    /// Everything has been reported; only the exit code is left.
+    Reported(u8),
 }
 
 impl Failure {
     /// 1 a comparison failed, 2 the input or the usage is wrong, 3 the machine cannot do it.
     pub fn exit_code(&self) -> u8 {
         match self {
-            // Whatever else is wrong: with a shader that does not compile there is nothing that a machine could run.
+            // Whatever else is wrong: with a shader that does not compile, no machine could run it.
             Failure::Mistakes(mistakes) if mistakes.iter().any(of_a_shader) => 3,
             Failure::Mistakes(_) | Failure::Usage(_) | Failure::Gpu(GpuError::Input { .. }) => 2,
             Failure::Gpu(_) => 3,
             Failure::File(error) => error.exit_code(),
-            Failure::Told(code) => *code,
+            Failure::Reported(code) => *code,
         }
     }
 
-    /// Says it on standard error.
+    /// Prints it to standard error.
     pub fn print(&self) {
         match self {
             Failure::Mistakes(mistakes) => terminal::error(&render_text(mistakes, terminal::color())),
             Failure::Usage(text) => terminal::error(&format!("error: {text}")),
             Failure::Gpu(error) => terminal::error(&format!("error: {error}")),
             Failure::File(error) => terminal::error(&format!("error: {error}")),
-            Failure::Told(_) => {}
+            Failure::Reported(_) => {}
         }
     }
 }
 
-/// A shader does not compile, or disagrees with what its pass declares.
+/// Whether a shader does not compile, or disagrees with its pass.
 fn of_a_shader(mistake: &Diagnostic) -> bool {
     tyndall_shader::CODES.contains(&mistake.code)
 }

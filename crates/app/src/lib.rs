@@ -1,6 +1,6 @@
-//! The program `tyndall`: its verbs over the layers below.
+//! The program `tyndall`: its verbs, over the layers below.
 //!
-//! `App::new().plugin(my_plugin::plugin()).run()` is a `tyndall` with one more plugin in it.
+//! `App::new().plugin(my_plugin::plugin).run()` is a `tyndall` with one more plugin.
 
 mod cli;
 mod commands;
@@ -50,7 +50,7 @@ impl App {
         self
     }
 
-    /// Reads the command line and does what it says.
+    /// Reads the command line and runs its verb.
     pub fn run(self) -> ExitCode {
         terminal::quieten_device_select();
         let arguments = match cli::parse() {
@@ -72,7 +72,7 @@ impl App {
     }
 }
 
-/// With several causes the highest code counts, and whatever else is wrong, an adapter that is not there is the machine's.
+/// Of several causes the highest code counts: whatever else is wrong, a missing adapter is the machine's fault.
 fn exit_code_of_adapter(arguments: &Arguments, failure: &Failure) -> u8 {
     let Some(name) = arguments.verb.adapter().filter(|_| failure.exit_code() == 2) else { return 0 };
     let Err(error) = tyndall_gpu::Gpu::open(Some(name)) else { return 0 };

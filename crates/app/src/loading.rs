@@ -29,7 +29,7 @@ pub(crate) fn load(arguments: &GraphArguments, registry: &Registry) -> Result<Lo
     loaded.ok_or(Failure::Mistakes(out))
 }
 
-/// Warns of passes whose loops the driver has ended before they were done.
+/// Warns of passes whose loops the driver ended before they were done.
 pub(crate) fn warn_of_unfinished(running: &Running<'_>) -> Result<(), Failure> {
     let mut out = Diagnostics::default();
     running.warn_of_unfinished(&mut out)?;

@@ -39,7 +39,10 @@ fn write_numbers<T: Sample>(path: &Path, data: &PortData, numbers: Vec<T>, meani
     Ok(())
 }
 
-/// Only `.npy` holds what is no two-dimensional texture.
+/// Only `.npy` can hold anything but two-dimensional textures.
 pub(crate) fn no_picture(name: impl std::fmt::Display, path: &Path) -> Failure {
-    Failure::Usage(format!("`{name}` is no two-dimensional picture, so {} cannot hold it: write .npy", path.display()))
+    Failure::Usage(format!(
+        "`{name}` is not a two-dimensional picture, so {} cannot hold it: write .npy",
+        path.display()
+    ))
 }

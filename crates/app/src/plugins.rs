@@ -18,7 +18,8 @@ pub(crate) fn registry(app: &App, arguments: &Arguments, beside: &[&Path]) -> Re
     Ok(tyndall_render::registry(crates, &paths)?)
 }
 
-/// Where plugins are looked for: the command line, the environment, `plugins` beside the graph, `plugins` here.
+/// Where plugins are looked for: the command line, the environment, `plugins` beside the graph, `plugins` in the working
+/// directory.
 pub(crate) fn search_paths(arguments: &Arguments, beside: &[&Path]) -> Vec<SearchPath> {
     let required = |path: PathBuf| SearchPath { path, required: true };
     let usual = |path: PathBuf| SearchPath { path, required: false };

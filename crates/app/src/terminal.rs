@@ -1,4 +1,4 @@
-//! Standard output and standard error: a reader that goes away is no reason to panic.
+//! Standard output and standard error, without a panic if the reader goes away.
 
 use std::io::{ErrorKind, IsTerminal, Result, Write, stderr, stdout};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,37 +8,37 @@ pub(crate) fn line(text: &str) {
     note(writeln!(stdout(), "{text}").and_then(|()| stdout().flush()));
 }
 
-/// Writes a text as it is to standard output.
+/// Writes a text to standard output as it is.
 pub(crate) fn text(text: &str) {
     note(write!(stdout(), "{text}").and_then(|()| stdout().flush()));
 }
 
 static LOST: AtomicBool = AtomicBool::new(false);
 
-/// Whoever reads may have closed the pipe, and then there is nobody left to tell; all else is remembered.
+/// If the reader has closed the pipe, nobody is left to read; every other failure is remembered.
 fn note(written: Result<()>) {
     if written.is_err_and(|error| error.kind() != ErrorKind::BrokenPipe) {
         LOST.store(true, Ordering::Relaxed);
     }
 }
 
-/// Something that was to go to standard output is lost: the disk that it goes to is full, say.
+/// Whether output was lost, because its disk is full, for example.
 pub(crate) fn output_lost() -> bool {
     LOST.load(Ordering::Relaxed)
 }
 
-/// Writes a text to standard error, ended by a new line.
+/// Writes a text to standard error, followed by a line break.
 pub(crate) fn error(text: &str) {
     let _ = writeln!(stderr(), "{}", text.trim_end());
 }
 
-/// Whether errors may be coloured: standard error is a terminal and nobody has asked for none.
+/// Whether errors may be coloured: standard error is a terminal, and colours are not switched off.
 pub(crate) fn color() -> bool {
     stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }
 
 /// Where there is no desktop, Mesa's device-select layer writes an error about `XDG_RUNTIME_DIR` to standard error at every
-/// start. It has nothing to select by then, unless somebody asked it to.
+/// start. It has nothing to select then, unless somebody asked it to.
 #[allow(unsafe_code, reason = "setting a variable is sound while the program has one thread, which is so at its start")]
 pub(crate) fn quieten_device_select() {
     let is_set = |name: &str| std::env::var_os(name).is_some();

@@ -1,4 +1,4 @@
-//! What hides lights, for the truth: spheres and tori as they are, all else triangle by triangle.
+//! What hides lights, for the truth: exact spheres and tori, and the triangles of everything else.
 
 use tyndall_scene::Scene;
 use tyndall_shaders::ray::Ray;
@@ -7,17 +7,17 @@ use tyndall_shaders::shadows::lit_intervals;
 
 use crate::round::Round;
 
-/// A lit part shorter than this part of its ray is no part: rounding makes such where casters touch.
+/// Lit parts shorter than this fraction of their ray are dropped: rounding makes them where casters touch.
 const SLIVER: f64 = 1e-9;
-/// A surface is lit where the last lit part ends within this part of the way to it.
+/// A surface is lit if the last lit part ends within this fraction of the distance to it.
 const AT_SURFACE: f64 = 1e-5;
 
-/// What a scene casts shadows with, and what its rays meet.
+/// The casters of a scene, and what its rays meet.
 #[derive(Debug, Clone)]
 pub(crate) struct Casters {
     round: Vec<Round>,
     triangles: Vec<Caster>,
-    /// Everything round that is seen, casters or not.
+    /// Everything round that is visible, casters or not.
     seen: Vec<Round>,
 }
 
@@ -42,16 +42,17 @@ impl Casters {
         Self { round, triangles, seen }
     }
 
-    /// Where a ray ends that meets a triangle after `way` metres: no later than at what the triangles stand for.
-    pub fn end(&self, ray: &Ray, way: f64) -> f64 {
-        self.seen.iter().filter_map(|round| round.entry(ray, way)).fold(way, f64::min)
+    /// Where a ray ends that meets a triangle after `distance` metres: at the latest at the round shape that the triangles
+    /// approximate.
+    pub fn end(&self, ray: &Ray, distance: f64) -> f64 {
+        self.seen.iter().filter_map(|round| round.entry(ray, distance)).fold(distance, f64::min)
     }
 
-    /// The parts of the first `way` metres of a ray that a light reaches, in order, m.
-    pub fn lit(&self, light: &Light, ray: &Ray, way: f64) -> Vec<[f64; 2]> {
-        let mut lit = lit_intervals(light, &self.triangles, ray, way);
+    /// The parts of the first `distance` metres of a ray that a light reaches, in order, m.
+    pub fn lit(&self, light: &Light, ray: &Ray, distance: f64) -> Vec<[f64; 2]> {
+        let mut lit = lit_intervals(light, &self.triangles, ray, distance);
         for round in &self.round {
-            for [from, to] in round.hidden(light, ray, way) {
+            for [from, to] in round.hidden(light, ray, distance) {
                 let beside = |[start, end]: [f64; 2]| [[start, end.min(from)], [start.max(to), end]];
                 lit = lit.into_iter().flat_map(beside).filter(|[start, end]| end > start).collect();
             }
@@ -60,8 +61,8 @@ impl Casters {
         lit
     }
 
-    /// Whether the light reaches the surface at the end of the way, by the lit parts before it.
-    pub fn reaches(lit: &[[f64; 2]], way: f64) -> bool {
-        lit.last().is_some_and(|[_, end]| *end >= way * (1.0 - AT_SURFACE))
+    /// Whether the light reaches the surface at this distance, given the lit parts before it.
+    pub fn reaches(lit: &[[f64; 2]], distance: f64) -> bool {
+        lit.last().is_some_and(|[_, end]| *end >= distance * (1.0 - AT_SURFACE))
     }
 }

@@ -1,16 +1,16 @@
-//! Mistakes that only a comparison can have; each has a fixture in `tests/fixtures`.
+//! The classes of mistakes in comparison files; each has a fixture in `tests/fixtures`.
 
-use tyndall_document::Code;
+use tyndall_document::codes;
 
-/// There are no scenes, or no methods.
-pub(crate) const NOTHING_TO_COMPARE: Code = Code("nothing-to-compare");
-/// The program knows no truth of an output.
-pub(crate) const NO_TRUTH: Code = Code("no-truth");
-/// What a method's graph gives is no picture of the size that is compared.
-pub(crate) const WRONG_PICTURE: Code = Code("wrong-picture");
-
-/// A method changes the scene, of which the truth is.
-pub(crate) const SCENE_OF_METHOD: Code = Code("scene-of-method");
-
-/// All of them.
-pub const CODES: &[Code] = &[NOTHING_TO_COMPARE, NO_TRUTH, SCENE_OF_METHOD, WRONG_PICTURE];
+codes! {
+    /// Every class of mistake that this crate reports and none below it.
+    CODES:
+    /// There are no scenes, or no methods.
+    NOTHING_TO_COMPARE = "nothing-to-compare";
+    /// The program cannot compute the truth of an output.
+    NO_TRUTH = "no-truth";
+    /// The output of a method's graph is not a picture of the compared size.
+    WRONG_PICTURE = "wrong-picture";
+    /// A method changes the scene, which the truth depends on.
+    SCENE_OF_METHOD = "scene-of-method";
+}

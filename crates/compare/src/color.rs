@@ -1,4 +1,4 @@
-//! Pictures for the eye: light through one curve, errors through a ramp of evenly seen steps.
+//! Pictures for the eye: light through one curve, errors through a perceptually uniform colour map.
 
 use tyndall_image::srgb_from_linear;
 
@@ -25,7 +25,7 @@ const VIRIDIS: [Rgb; 10] = [
     [0xfd, 0xe7, 0x25],
 ];
 
-/// The colour of an error. All from 100 % on have one, and all to 0.001 %.
+/// The colour of an error, clamped to 0.001 % and 100 %.
 pub(crate) fn of_error(error: f64) -> Rgb {
     let part = ((error.max(LEAST) / LEAST).ln() / (MOST / LEAST).ln()).clamp(0.0, 1.0);
     let at = part * (VIRIDIS.len() - 1) as f64;

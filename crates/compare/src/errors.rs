@@ -4,8 +4,8 @@ use tyndall_image::metrics::{Percentiles, percentiles};
 
 use crate::truth::Truth;
 
-/// Errors are relative to the truth or, where that is darker, to this part of the mean of the true picture: what is dark
-/// beyond interest must not decide.
+/// Errors are relative to the truth or, where that is darker, to this fraction of the mean of the true picture, so that very
+/// dark pixels do not dominate.
 pub(crate) const FLOOR: f64 = 0.01;
 
 /// Errors of one picture.
@@ -35,7 +35,7 @@ impl Errors {
     }
 }
 
-/// What the sum of a picture errs by; of a black truth what is not black is infinitely wrong.
+/// The error of the sum of a picture; if the truth is black, anything else is infinitely wrong.
 fn sum(found: &[[f32; 3]], truth: &Truth) -> f64 {
     let of_channel = |channel: usize| {
         let found: f64 = found.iter().map(|pixel| f64::from(pixel[channel])).sum();
@@ -52,7 +52,7 @@ fn sum(found: &[[f32; 3]], truth: &Truth) -> f64 {
     (0..3).map(of_channel).fold(0.0, f64::max)
 }
 
-/// |found − wanted|/max(|wanted|, floor); what is no number is infinitely wrong.
+/// |found − wanted|/max(|wanted|, floor); NaN is infinitely wrong.
 fn relative(found: f32, wanted: f64, floor: f64) -> f64 {
     let difference = (f64::from(found) - wanted).abs();
     if difference == 0.0 {
@@ -110,7 +110,7 @@ mod tests {
         assert_eq!(errors.of_pixels, [0.5 / (FLOOR * 100.0), 0.0]);
     }
 
-    /// What is wrong on an outline shows in the sum and on the map, and in no percentile.
+    /// An error on an outline shows in the sum and on the map, but in no percentile.
     #[test]
     fn outlines_are_left_to_the_sum() {
         let pixels = vec![DVec3::splat(1.0); 4];

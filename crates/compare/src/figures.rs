@@ -1,4 +1,4 @@
-//! What a comparison found.
+//! The results of a comparison.
 
 use serde_json::{Value, json};
 use tyndall_image::metrics::{Percentiles, median};
@@ -6,13 +6,13 @@ use tyndall_image::metrics::{Percentiles, median};
 use crate::errors::FLOOR;
 use crate::measure::Cost;
 
-/// All that was measured.
+/// Everything that was measured.
 #[derive(Debug, Clone)]
 pub(crate) struct Figures {
     pub about: String,
-    /// What was compared: `airlight`.
+    /// The output compared: `airlight`.
     pub output: &'static str,
-    /// Whether what casts shadows does so.
+    /// Whether shadows were compared.
     pub shadows: bool,
     pub adapter: String,
     pub size: (u32, u32),
@@ -60,7 +60,7 @@ impl Row {
         Self { p50: errors.p50, p95: errors.p95, p99: errors.p99, max: errors.max, sum, cost }
     }
 
-    /// Of several scenes: the median p50, the worst of other errors, the sum of times, the most bytes.
+    /// Over several scenes: the median p50, the worst of the other errors, the sum of times, the most bytes.
     fn over(rows: &[Row]) -> Self {
         let worst = |of: fn(&Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
         let most = |of: fn(&Row) -> u64| rows.iter().map(of).max().unwrap_or_default();
@@ -102,7 +102,7 @@ impl Figures {
         (0..self.methods.len()).map(|method| Row::over(&of(method))).collect()
     }
 
-    /// For programs. An infinite error is null.
+    /// As JSON. An infinite error is null.
     pub fn json(&self) -> Value {
         let rows = |rows: &[Row]| -> Vec<Value> {
             rows.iter().zip(&self.methods).map(|(row, method)| row.json(method)).collect()

@@ -1,11 +1,11 @@
-//! `NAME.compare.ron`: which scenes are drawn by which methods, and what of them is compared.
+//! `NAME.compare.ron`: which scenes are drawn by which methods, and which output is compared.
 //!
 //! ```ron
 //! (
 //!     version: 1,
 //!     about: "What the page says it is for.",
-//!     output: "airlight",            // an output of every graph; its truth is known to the program
-//!     shadows: true,                 // false without it: whether what casts shadows hides lights from the truth
+//!     output: "airlight",            // an output of every graph, of which the program computes the truth
+//!     shadows: true,                 // whether the truth has shadows; false by default
 //!     size: (320, 240),
 //!     scenes: {
 //!         "lamp": (scene: "scenes/lamp.scene.ron", about: "A lamp in view", set: { "scene.medium.albedo": (1, 1, 1) }),
@@ -21,31 +21,30 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use tyndall_document::{Decoder, Diagnostic, Diagnostics, Fields, Node, Source, Span, Value, parse};
-use tyndall_graph::codes::{BAD_SIZE, BAD_VERSION, NEWER_VERSION};
+use tyndall_document::{BAD_SIZE, Decoder, Diagnostic, Diagnostics, Fields, Node, Source, Span, Value, parse};
 
 use crate::codes::{NO_TRUTH, NOTHING_TO_COMPARE};
-use crate::truth::Light;
+use crate::truth::Output;
 
 /// The version of the format that this program reads.
 const VERSION: i64 = 1;
 
-/// Where the file gives no size.
+/// The size, unless the file gives one.
 const SIZE: (u32, u32) = (320, 240);
 
-/// A comparison as it stands in its file.
+/// A comparison, as read from its file.
 #[derive(Debug, Clone)]
 pub struct CompareFile {
     pub(crate) source: Arc<Source>,
-    /// What it is for.
+    /// What the comparison is for.
     pub(crate) about: String,
-    /// What is compared.
-    pub(crate) light: Light,
-    /// Where it says so.
+    /// The output that is compared.
+    pub(crate) output: Output,
+    /// The place of its name.
     pub(crate) output_span: Span,
-    /// Whether what casts shadows hides lights from the truth.
+    /// Whether the truth has shadows.
     pub(crate) shadows: bool,
-    /// Of every picture, in pixels.
+    /// The size of every picture, in pixels.
     pub size: (u32, u32),
     /// In the order of the file.
     pub scenes: Vec<Entry>,
@@ -56,10 +55,10 @@ pub struct CompareFile {
 /// A scene or a method.
 #[derive(Debug, Clone)]
 pub struct Entry {
-    /// What tables and the page call it.
+    /// Its name in the tables and on the page.
     pub name: String,
     pub(crate) name_span: Span,
-    /// A sentence; empty where the file does not say.
+    /// A sentence; empty if the file has none.
     pub(crate) about: String,
     /// The scene or the graph, relative to the working directory (or absolute).
     pub path: PathBuf,
@@ -71,65 +70,48 @@ pub struct Entry {
 pub(crate) struct Setting {
     /// `name=value`, as `--set` takes it.
     pub text: String,
-    /// Of the value.
+    /// The place of the value.
     pub span: Span,
 }
 
-/// Reads a comparison file; every mistake that can be seen without the files that it names goes to `out`.
+/// Reads a comparison file; every mistake that does not concern the files that it names goes to `out`.
 pub fn read(source: &Arc<Source>, out: &mut Diagnostics) -> Option<CompareFile> {
     let root = parse(source, out)?;
     let decoder = &mut Decoder::new(source, out);
     let known = ["version", "about", "output", "shadows", "size", "scenes", "methods"];
     let fields = decoder.fields(&root, "a comparison", &known)?;
     if let Some(node) = fields.required(decoder, "version") {
-        version(decoder, node);
+        decoder.version(node, VERSION);
     }
     let about = text(decoder, &fields, "about");
-    let output = fields.required(decoder, "output");
-    let light = output.and_then(|node| light(decoder, node));
-    let shadows = fields.get("shadows").is_some_and(|node| shadows(decoder, node, light));
+    let output_node = fields.required(decoder, "output");
+    let output_span = output_node.map_or(root.span, |node| node.span);
+    let output = output_node.and_then(|node| output(decoder, node));
+    let shadows = fields.get("shadows").is_some_and(|node| shadows(decoder, node, output));
     let size = fields.get("size").map_or(Some(SIZE), |node| size(decoder, node));
     let scenes = entries(decoder, &fields, ("scenes", "a scene"), "scene");
     let methods = entries(decoder, &fields, ("methods", "a method"), "graph");
-    let output_span = output.map_or(root.span, |node| node.span);
-    let (light, size) = (light?, size?);
-    Some(CompareFile { source: source.clone(), about, light, output_span, shadows, size, scenes, methods })
+    let (output, size) = (output?, size?);
+    Some(CompareFile { source: source.clone(), about, output, output_span, shadows, size, scenes, methods })
 }
 
-fn version(decoder: &mut Decoder<'_>, node: &Node) {
-    let Some(version) = decoder.integer(node) else { return };
-    let (code, message, suggestion) = if version > VERSION {
-        let message = format!("this file has version {version}, and this program reads up to {VERSION}");
-        (NEWER_VERSION, message, "use a newer program")
-    } else if version < VERSION {
-        (BAD_VERSION, format!("there is no version {version}"), "write version: 1")
-    } else {
-        return;
-    };
-    let place = decoder.place(node.span);
-    decoder.report(Diagnostic::error(code, place, message).suggest(suggestion));
-}
-
-fn light(decoder: &mut Decoder<'_>, node: &Node) -> Option<Light> {
+fn output(decoder: &mut Decoder<'_>, node: &Node) -> Option<Output> {
     let name = decoder.text(node)?;
-    let light = Light::ALL.into_iter().find(|light| light.output() == name);
-    if light.is_none() {
-        let known: Vec<String> = Light::ALL.iter().map(|light| format!("`{}`", light.output())).collect();
-        let message = format!("there is no truth for the output `{name}` to be compared with");
-        let place = decoder.place(node.span);
-        decoder.report(
-            Diagnostic::error(NO_TRUTH, place, message).suggest(format!("truth is known for {}", known.join(", "))),
-        );
+    let output = Output::ALL.into_iter().find(|output| output.name() == name);
+    if output.is_none() {
+        let message = format!("no truth can be computed for the output `{name}`");
+        let problem = Diagnostic::error(NO_TRUTH, decoder.place(node.span), message);
+        decoder.report(problem.suggest_available(Output::ALL.map(Output::name)));
     }
-    light
+    output
 }
 
-/// Of surfaces there is no truth with shadows: the scattered part of their light has none by any method.
-fn shadows(decoder: &mut Decoder<'_>, node: &Node, light: Option<Light>) -> bool {
+/// The truth of surfaces has no shadows, because no method has any in the light that is scattered onto them.
+fn shadows(decoder: &mut Decoder<'_>, node: &Node, output: Option<Output>) -> bool {
     let wanted = decoder.bool(node).unwrap_or_default();
-    if wanted && light == Some(Light::Surface) {
+    if wanted && output == Some(Output::Surface) {
         let place = decoder.place(node.span);
-        let message = "there is no truth for shadows on surfaces to be compared with";
+        let message = "no truth can be computed for shadows on surfaces";
         decoder
             .report(Diagnostic::error(NO_TRUTH, place, message).suggest("compare `airlight`, or leave `shadows` out"));
     }
@@ -150,7 +132,7 @@ fn size(decoder: &mut Decoder<'_>, node: &Node) -> Option<(u32, u32)> {
     };
     if size.is_none() {
         let place = decoder.place(node.span);
-        let message = "a size is two whole numbers of 1 or more, (width, height)";
+        let message = "expected a size: two whole numbers of at least 1, (width, height)";
         decoder.report(Diagnostic::error(BAD_SIZE, place, message).suggest("write size: (320, 240)"));
     }
     size

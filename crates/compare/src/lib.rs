@@ -1,5 +1,5 @@
-//! Comparisons: the same scenes by several methods, each against light in double precision; error, time and memory, as
-//! tables and as a page with pictures, maps of the error, and error over time.
+//! Comparisons: the same scenes by several methods, each against double precision; error, time and memory, as tables and as
+//! a page with pictures, maps of the error, and plots of error over time.
 //!
 //! | step | function | gives |
 //! | --- | --- | --- |
@@ -7,11 +7,11 @@
 //! | entries to checked scenes and planned graphs, without a GPU | [`prepare`] | [`PreparedScene`] |
 //! | pictures, truth, errors, times | [`compare`] | [`Comparison`] |
 //!
-//! The truth is computed by the twins of the shaders (`tyndall_shaders`), whatever the methods do. [`curves`] plots
-//! anything else that is measured.
+//! The truth is computed by the twins of the shaders (`tyndall_shaders`), whatever the methods are. [`curves`] plots other
+//! measurements.
 
 mod casters;
-mod codes;
+pub mod codes;
 mod color;
 mod errors;
 mod figures;

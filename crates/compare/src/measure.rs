@@ -1,4 +1,4 @@
-//! What a method costs, and what it draws.
+//! What a method draws, and what it costs.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ pub(crate) struct Measured<'p> {
     frame_us: Vec<f64>,
     set_up_us: Vec<f64>,
     scene_us: Vec<f64>,
-    /// Bytes of what is worked out of casters: once, and in each frame.
+    /// Bytes of data derived from casters: once, and in each frame.
     scene_bytes: (u64, u64),
 }
 
@@ -30,7 +30,7 @@ pub(crate) struct Measured<'p> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct OwnPass {
     position: Handle<PlannedPass>,
-    /// Its result stays while camera and lights move.
+    /// Whether its result is kept while camera and lights move.
     is_set_up: bool,
 }
 
@@ -41,16 +41,16 @@ pub(crate) struct Cost {
     pub frame_us: Option<f64>,
     /// GPU time of what is computed once, µs.
     pub set_up_us: Option<f64>,
-    /// CPU time, on one core, of working out all that passes read of casters: silhouettes and slices, or a hierarchy of
-    /// triangles, µs; `None` where no pass reads such.
+    /// CPU time, on one core, of deriving what passes read of casters (silhouettes and slices, or a hierarchy of triangles),
+    /// µs; `None` if no pass reads any.
     pub scene_us: Option<f64>,
-    /// Of what is written in each frame, and of what follows the eye.
+    /// Bytes written in each frame, including data that follow the eye.
     pub frame_bytes: u64,
-    /// Of what is computed once.
+    /// Bytes computed once.
     pub set_up_bytes: u64,
 }
 
-/// Scene data that is worked out of casters: what follows the eye, and what stays.
+/// Scene data derived from casters: those that follow the eye, and those that are kept.
 const CASTERS: [(&str, bool); 2] = [("shadow_", true), ("occluder_", false)];
 
 impl<'p> Measured<'p> {
@@ -64,7 +64,7 @@ impl<'p> Measured<'p> {
         let mut running = Running::new(gpu, method.plan.clone(), method.scene.as_ref(), registry, cache)?;
         running.frame(FrameOptions::default())?;
         gpu.wait()?;
-        // A picture that the driver left undone would count as the method's error.
+        // A picture that the driver left unfinished would count as the method's error.
         let mut unfinished = Diagnostics::default();
         running.warn_of_unfinished(&mut unfinished)?;
         if !unfinished.is_empty() {
@@ -85,14 +85,14 @@ impl<'p> Measured<'p> {
         Ok(data.floats().chunks_exact(channels).map(pixel).collect())
     }
 
-    /// Times each pass that runs in every frame once, alone on the GPU; the first time also those whose result stays, which
-    /// may take long.
+    /// Times once each pass that runs in every frame, alone on the GPU; the first time also those whose results are kept,
+    /// which may take long.
     pub fn time(&mut self) -> Result<(), Error> {
         let is_first = self.frame_us.is_empty();
         let (mut frame, mut set_up) = (Some(0.0), Some(0.0));
         for pass in self.own.iter().filter(|pass| is_first || !pass.is_set_up) {
             let timing = Timing::Pass(pass.position);
-            // What it reads is kept. It runs where something needs it: so all that follows is forgotten, too.
+            // Its inputs are kept. It runs if something needs it, so all results after it are forgotten too.
             for following in self.own.iter().filter(|other| other.position >= pass.position) {
                 self.running.executor.forget(following.position);
             }
@@ -106,7 +106,7 @@ impl<'p> Measured<'p> {
         Ok(())
     }
 
-    /// Times what is worked out of casters: all of it, less what else a scene is encoded to.
+    /// Times the data derived from casters: the whole encoding, less that of all other data.
     fn time_scene(&mut self) {
         let plan = self.running.executor.plan();
         let of_casters = |name: &str| CASTERS.iter().any(|(start, _)| name.starts_with(start));
@@ -143,7 +143,7 @@ impl<'p> Measured<'p> {
     }
 }
 
-/// All passes of a plan for one port, but those that rasterise: that read triangles, and no light.
+/// All passes of a plan for one port, except those that rasterise, which read triangles but no lights.
 fn own_passes(plan: &Plan) -> Vec<OwnPass> {
     let rasterises = |position: &Handle<PlannedPass>| {
         let reads = |name: &str| plan.descriptor(*position).scene.iter().any(|data| data == name);

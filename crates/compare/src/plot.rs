@@ -1,5 +1,5 @@
-//! Plots as SVG, with logarithmic axes: error over time, with a mark for each method and the front that no other method
-//! passes; and any quantity over another.
+//! Plots as SVG, with logarithmic axes: error over time, with a mark for each method and the Pareto front; and any quantity
+//! over another.
 
 use std::fmt::Write;
 
@@ -8,32 +8,32 @@ use crate::page::escaped;
 /// A mark.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
-    /// What stands beside it; nothing does where it is empty.
+    /// Its label; it may be empty.
     pub label: String,
     /// Marks of one family look alike and are joined in their order.
     pub family: usize,
-    /// Where it stands on the axis to the right.
+    /// Its place on the horizontal axis.
     pub x: f64,
-    /// Where it stands on the axis upward.
+    /// Its place on the vertical axis.
     pub y: f64,
 }
 
-/// What the numbers of an axis are.
+/// The unit of the numbers on an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
-    /// ms.
+    /// Milliseconds.
     Milliseconds,
-    /// Parts of one, written as percent.
+    /// Fractions, written as percentages.
     Percent,
     /// A number of things.
     Count,
     /// MiB.
     Mebibytes,
-    /// One quantity over another.
+    /// A ratio.
     Ratio,
 }
 
-/// An axis: what it says, and in which unit.
+/// An axis: its title and its unit.
 pub type Quantity<'a> = (&'a str, Unit);
 
 const WIDTH: f64 = 760.0;
@@ -43,12 +43,12 @@ const RIGHT: f64 = 22.0;
 const TOP: f64 = 44.0;
 const BOTTOM: f64 = 56.0;
 
-/// An error below this, 0 too, stands at it: f32 knows no less of a picture.
+/// Smaller errors, 0 included, are drawn at this one: the limit of single precision.
 const LEAST_ERROR: f64 = 1e-8;
-/// What is more wrong than this stands at it.
+/// Larger errors are drawn at this one.
 const MOST_ERROR: f64 = 1e6;
 
-/// Colours that stay apart for all kinds of eyes, on white and on black (Okabe and Ito 2008).
+/// Colours that everybody can tell apart, on white and on black (Okabe and Ito 2008).
 const STYLE: &str = "
 .plot { font: 12px system-ui, sans-serif; color: #222; }
 .plot text { fill: currentColor; }
@@ -86,8 +86,8 @@ pub(crate) fn plot(title: &str, error_name: &str, points: &[Point]) -> Option<St
     Some(svg + "</svg>\n")
 }
 
-/// One quantity over another as an SVG: a line with marks for each family. `note` stands below the title; `rule` is a value
-/// upward at which a line runs across. `None` where there is no point whose numbers are above 0.
+/// One quantity over another as an SVG: a line with marks for each family. `note` is printed below the title; at the vertical
+/// value `rule` a line is drawn across. `None` if there is no point with positive numbers.
 pub fn curves(
     (title, note): (&str, &str),
     [across, upward]: [Quantity<'_>; 2],
@@ -110,7 +110,7 @@ pub fn curves(
     Some(svg + "</svg>\n")
 }
 
-/// The points that have a place on a logarithmic axis to the right.
+/// The points that have a place on a logarithmic horizontal axis.
 fn timed(points: &[Point]) -> impl Iterator<Item = &Point> {
     points.iter().filter(|point| point.x.is_finite() && point.x > 0.0)
 }
@@ -144,13 +144,13 @@ struct Axis {
 }
 
 impl Axis {
-    /// Whole decades around the values, at least one; `None` of no values.
+    /// Whole decades around the values, at least one; `None` without values.
     fn around(values: impl Iterator<Item = f64>, from: f64, to: f64) -> Option<Self> {
         let (least, most) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)));
         if !least.is_finite() {
             return None;
         }
-        // a value on the edge would be cut
+        // A value on the edge would be clipped.
         let (low, high) = ((least * 0.8).log10().floor(), (most * 1.25).log10().ceil());
         Some(Self { low, high: high.max(low + 1.0), from, to })
     }
@@ -225,7 +225,7 @@ fn percent(decade: i32) -> String {
     }
 }
 
-/// The methods that no other one passes in time and error both, by time.
+/// The methods that no other one beats in both time and error, by time.
 pub(crate) fn front(points: &[Point]) -> Vec<&Point> {
     let mut sorted: Vec<&Point> = points.iter().collect();
     sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -238,18 +238,18 @@ pub(crate) fn front(points: &[Point]) -> Vec<&Point> {
     sorted
 }
 
-/// The edge of what is reached: from the fastest method to the right and down.
+/// The Pareto front: from the fastest method to the right and down.
 fn step(svg: &mut String, x: &Axis, y: &Axis, front: &[&Point]) {
     let Some(first) = front.first() else { return };
     let mut path = format!("M{:.1} {TOP}", x.at(first.x));
     for point in front {
-        // a String takes all that is written to it
+        // Writing to a string cannot fail.
         let _ = write!(path, "H{:.1}V{:.1}", x.at(point.x), y.at(point.y));
     }
     *svg += &format!("<path class=\"front\" d=\"{path}H{}\"/>\n", WIDTH - RIGHT);
 }
 
-/// Where the front runs level, a little higher than its line.
+/// The horizontal parts of the front, slightly above its line.
 fn treads(x: &Axis, y: &Axis, front: &[&Point]) -> Vec<Area> {
     let ends = front.iter().skip(1).map(|point| x.at(point.x)).chain([WIDTH - RIGHT]);
     let tread = |(point, end): (&&Point, f64)| {
@@ -270,7 +270,7 @@ fn families(svg: &mut String, x: &Axis, y: &Axis, points: &[Point]) {
     }
 }
 
-/// Families differ by shape, too.
+/// Families also differ by shape.
 fn mark(svg: &mut String, x: &Axis, y: &Axis, point: &Point, is_on_front: bool) {
     let shape = match point.family % 4 {
         0 => "M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0Z",
@@ -287,7 +287,7 @@ fn mark(svg: &mut String, x: &Axis, y: &Axis, point: &Point, is_on_front: bool) 
     );
 }
 
-/// A box of the picture.
+/// A rectangle of the picture.
 #[derive(Debug, Clone, Copy)]
 struct Area {
     x: f64,
@@ -304,7 +304,7 @@ impl Area {
     }
 }
 
-/// Each label beside its mark, where it covers least of the marks, of the front and of the labels before it.
+/// Places each label beside its mark, where it covers least of the marks, the front and the labels before it.
 fn labels(svg: &mut String, x: &Axis, y: &Axis, points: &[Point], front: &[&Point]) {
     let plot = Area { x: LEFT, y: TOP, width: WIDTH - RIGHT - LEFT, height: HEIGHT - BOTTOM - TOP };
     let around = |point: &Point| Area { x: x.at(point.x) - 6.0, y: y.at(point.y) - 6.0, width: 12.0, height: 12.0 };
@@ -312,7 +312,7 @@ fn labels(svg: &mut String, x: &Axis, y: &Axis, points: &[Point], front: &[&Poin
     taken.extend(treads(x, y, front));
     for point in points.iter().filter(|point| !point.label.is_empty()) {
         let (at_x, at_y) = (x.at(point.x), y.at(point.y));
-        // of 12 px letters
+        // For letters of 12 px.
         let (width, height) = (6.4 * point.label.chars().count() as f64, 13.0);
         let places =
             [(1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, -1.0), (-1.0, 1.0)];

@@ -1,4 +1,4 @@
-//! From a comparison file to graphs and scenes that are checked and planned, without a GPU.
+//! From a comparison file to checked scenes and planned graphs, without a GPU.
 
 use std::collections::BTreeSet;
 
@@ -23,7 +23,7 @@ const GEOMETRY: &str = r#"(
 pub struct PreparedScene<'f> {
     pub(crate) entry: &'f Entry,
     pub(crate) scene: Scene,
-    /// Of what each pixel's ray meets.
+    /// The graph of what each pixel's ray meets.
     pub(crate) geometry: Plan,
     pub(crate) methods: Vec<PreparedMethod<'f>>,
 }
@@ -36,7 +36,7 @@ pub(crate) struct PreparedMethod<'f> {
     pub(crate) plan: Plan,
 }
 
-/// Reads, checks and plans all that a file names; every mistake of all of them goes to `out`.
+/// Reads, checks and plans everything that a file names; all mistakes go to `out`.
 pub fn prepare<'f>(file: &'f CompareFile, registry: &Registry, out: &mut Diagnostics) -> Vec<PreparedScene<'f>> {
     let mut scenes = Vec::new();
     for entry in &file.scenes {
@@ -44,7 +44,7 @@ pub fn prepare<'f>(file: &'f CompareFile, registry: &Registry, out: &mut Diagnos
         let own = own_scene(entry, &mut found);
         if own.as_ref().is_some_and(Scene::has_height_fog) {
             let place = file.source.place(entry.name_span);
-            let mistake = Diagnostic::error(NO_TRUTH, place, "there is no truth for height fog to be compared with");
+            let mistake = Diagnostic::error(NO_TRUTH, place, "no truth can be computed for height fog");
             found.push(mistake.suggest("leave `scale_height` out of the scene's medium"));
         }
         let geometry = own.as_ref().and_then(|scene| geometry(file, scene, registry, &mut found));
@@ -107,13 +107,13 @@ fn method<'f>(
     };
     for setting in entry.settings.iter().filter(|setting| setting.text.starts_with("scene.")) {
         let message =
-            format!("`{}` changes the scene for one method, and all are compared with the light of one", setting.text);
+            format!("`{}` changes the scene for one method, but all methods are compared with one truth", setting.text);
         let mistake = Diagnostic::error(SCENE_OF_METHOD, file.source.place(setting.span), message);
-        out.push(mistake.suggest("change it in a scene's `set`; a scene file may stand in several scenes"));
+        out.push(mistake.suggest("change it in a scene's `set`; several scenes may use one scene file"));
     }
     let plan = tyndall_render::load(&request, registry, &mut found).and_then(|loaded| {
         let place = file.source.place(file.output_span);
-        let port = loaded.graph.find(file.light.output(), place).map_err(|mistake| found.push(mistake)).ok()?;
+        let port = loaded.graph.find(file.output.name(), place).map_err(|mistake| found.push(mistake)).ok()?;
         let plan = plan(file, &loaded, Roots::Ports(vec![port]), &mut found)?;
         is_picture(file, entry, &plan, &mut found).then_some((plan, loaded.scene))
     });
@@ -121,12 +121,12 @@ fn method<'f>(
     plan.map(|(plan, scene)| PreparedMethod { entry, scene, plan })
 }
 
-/// What changes from frame to frame is the camera and the lights, so that what depends on neither is kept. Where shadows
-/// are compared lights and casters stand still: what is made once for a light, its shadow map say, is kept by all methods.
+/// Camera and lights change from frame to frame, so what depends on neither is kept. If shadows are compared, lights and
+/// casters do not move: what is made once for a light, such as its shadow map, is kept by all methods.
 fn plan(file: &CompareFile, loaded: &Loaded, roots: Roots, out: &mut Diagnostics) -> Option<Plan> {
     let mut options = PlanOptions::new(loaded.graph.size);
     options.roots = roots;
-    // What shadows are made of follows the eye.
+    // What shadows are computed from follows the eye.
     let mut moving = vec!["camera", "shadow_lights", "shadow_slices", "shadow_crossings", "shadow_edges"];
     if !file.shadows {
         moving.push("lights");
@@ -145,7 +145,7 @@ fn is_picture(file: &CompareFile, entry: &Entry, plan: &Plan, out: &mut Diagnost
     let fits = matches!(resource, Resource::Texture { dimension: Dimension::D2, width: w, height: h, .. } if (w, h) == file.size);
     if !fits {
         let message =
-            format!("`{}` of this graph is {resource}, not a picture of {width}×{height}", file.light.output());
+            format!("`{}` of this graph is {resource}, not a picture of {width}×{height}", file.output.name());
         let place = file.source.place(entry.name_span);
         let mistake = Diagnostic::error(WRONG_PICTURE, place, message);
         out.push(mistake.suggest("the compared port must have the frame's size"));
@@ -153,13 +153,13 @@ fn is_picture(file: &CompareFile, entry: &Entry, plan: &Plan, out: &mut Diagnost
     fits
 }
 
-/// How a setting is named in what is told about it.
+/// The name of a setting in messages.
 fn argument(text: &str) -> String {
     format!("--set {text}")
 }
 
-/// Places of settings in the comparison file instead of the command line; what stands elsewhere names the entry that led
-/// there, the first of `entries`.
+/// Moves the places of settings from the command line to the comparison file; a mistake elsewhere gets the entry that led
+/// there, the first of `entries`, as a related place.
 fn placed(file: &CompareFile, entries: &[&Entry], found: Diagnostics) -> Diagnostics {
     let settings: Vec<&Setting> = entries.iter().flat_map(|entry| &entry.settings).collect();
     let in_file = |mut mistake: Diagnostic| {
@@ -174,7 +174,7 @@ fn placed(file: &CompareFile, entries: &[&Entry], found: Diagnostics) -> Diagnos
             None => {
                 let entry = file.source.place(entries[0].name_span);
                 if mistake.place != entry {
-                    mistake = mistake.relate(entry, format!("`{}` names it", entries[0].name));
+                    mistake = mistake.relate(entry, format!("used by `{}`", entries[0].name));
                 }
             }
         }

@@ -16,19 +16,19 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Every table and what it means, for a terminal.
+    /// All tables with their explanations, for a terminal.
     pub fn text(&self) -> String {
         table::text(&self.figures)
     }
 
-    /// Every figure, for programs.
+    /// All figures, as JSON.
     pub fn json(&self) -> Value {
         self.figures.json()
     }
 
     /// Writes the page and its pictures, the tables in Markdown (`table.md`) and, where there are times, error over time
-    /// (`plot.svg`) into a folder, the page (`index.html`) last: what it shows is there when it is. Gives the paths but
-    /// those of pictures.
+    /// (`plot.svg`) into a folder; the page (`index.html`) is written last, when all that it shows exists. Returns the paths,
+    /// except those of pictures.
     ///
     /// # Errors
     /// Whatever the file system refuses.

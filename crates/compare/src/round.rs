@@ -1,9 +1,9 @@
-//! Spheres and tori as casters: where a straight way meets them, and which parts of a ray they hide from a light.
+//! Spheres and tori as casters: where a ray meets them, and which parts of a ray they hide from a light.
 //!
-//! Each is a function of space, negative inside. Along a way it is a polynomial, of degree 2 or 4, whose turning points
-//! are found in closed form or between those of its derivative: so whether anything is in the way is known for certain.
-//! What is hidden begins and ends where a way just touches, which is found by bisection along the ray, in the angle at the
-//! light (a point light sees all of an endless ray within half a turn).
+//! Each is a function of space, negative inside. Along a straight line it is a polynomial, of degree 2 or 4, whose turning
+//! points are found in closed form or between those of its derivative: so it is known for certain whether a segment is
+//! blocked. A hidden part begins and ends where a line to the light just touches the caster, which is found by bisection
+//! along the ray, in the angle at the light (a point light sees all of an endless ray within half a turn).
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -12,18 +12,18 @@ use tyndall_scene::Primitive;
 use tyndall_shaders::ray::Ray;
 use tyndall_shaders::scene::Light;
 
-/// Places at which a ray is looked at before bisection; what lies between two of them is followed to its turning point.
-const LOOKS: usize = 64;
-/// Halvings after which a place is known to the last digit.
-const HALVINGS: usize = 60;
+/// Places at which a ray is sampled before bisection; between two of them the turning point is found.
+const SAMPLES: usize = 64;
+/// Bisections after which a place is exact to the last digit.
+const BISECTIONS: usize = 60;
 /// An angle at the light just below the end of an endless ray.
 const END: f64 = FRAC_PI_2 - 1e-9;
 
-/// A sphere or a torus, where it stands.
+/// A sphere or a torus, in its place.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Round {
     from_world: DAffine3,
-    /// Metres of the world in one of its own.
+    /// Metres of the world in one metre of its own space.
     scale: f64,
     shape: Shape,
 }
@@ -34,16 +34,16 @@ enum Shape {
     Torus { major: f64, minor: f64 },
 }
 
-/// A straight way: where it begins, its unit direction, its length, which may be infinite.
+/// A straight segment: its start, its unit direction, and its length, which may be infinite.
 #[derive(Debug, Clone, Copy)]
-struct Way {
+struct Segment {
     origin: DVec3,
     direction: DVec3,
     length: f64,
 }
 
 impl Round {
-    /// A primitive that is round; `world` ← its own space has one scale.
+    /// A round primitive; `world_from_own` must scale uniformly.
     pub fn new(primitive: Primitive, world_from_own: DAffine3) -> Option<Self> {
         let shape = match primitive {
             Primitive::Sphere { radius } => Shape::Sphere { radius },
@@ -54,25 +54,25 @@ impl Round {
         Some(Self { from_world: world_from_own.inverse(), scale, shape })
     }
 
-    /// Where a ray from outside first meets it within `way` metres, m.
-    pub fn entry(&self, ray: &Ray, way: f64) -> Option<f64> {
+    /// Where a ray from outside first meets it within `length`, m.
+    pub fn entry(&self, ray: &Ray, length: f64) -> Option<f64> {
         let ray = self.own(ray);
-        let way = Way { origin: ray.origin, direction: ray.direction, length: way / self.scale };
-        let value = |at: f64| self.shape.value(way.origin + at * way.direction);
-        let turns = self.shape.turns(&way);
+        let segment = Segment { origin: ray.origin, direction: ray.direction, length: length / self.scale };
+        let value = |at: f64| self.shape.value(segment.origin + at * segment.direction);
+        let turns = self.shape.turns(&segment);
         let first = turns.windows(2).find(|part| value(part[0]) > 0.0 && value(part[1]) <= 0.0)?;
         Some(self.scale * change(first[0], first[1], &|at| value(at) <= 0.0))
     }
 
-    /// The parts of the first `way` metres of a ray that it hides from a light, in order, m.
-    pub fn hidden(&self, light: &Light, ray: &Ray, way: f64) -> Vec<[f64; 2]> {
-        let (ray, way) = (self.own(ray), way / self.scale);
+    /// The parts of the first `length` metres of a ray that it hides from a light, in order, m.
+    pub fn hidden(&self, light: &Light, ray: &Ray, length: f64) -> Vec<[f64; 2]> {
+        let (ray, length) = (self.own(ray), length / self.scale);
         let found = match *light {
             Light::Point { position, .. } | Light::Spot { position, .. } => {
-                self.hidden_from(self.from_world.transform_point3(position), &ray, way)
+                self.hidden_from(self.from_world.transform_point3(position), &ray, length)
             }
             Light::Directional { direction, .. } => {
-                self.hidden_along(self.from_world.transform_vector3(direction).normalize(), &ray, way)
+                self.hidden_along(self.from_world.transform_vector3(direction).normalize(), &ray, length)
             }
         };
         found.into_iter().map(|part| part.map(|at| self.scale * at)).collect()
@@ -83,7 +83,7 @@ impl Round {
         Ray { origin: self.from_world.transform_point3(ray.origin), direction }
     }
 
-    fn hidden_from(&self, light: DVec3, ray: &Ray, way: f64) -> Vec<[f64; 2]> {
+    fn hidden_from(&self, light: DVec3, ray: &Ray, length: f64) -> Vec<[f64; 2]> {
         let to_light = light - ray.origin;
         let t = to_light.dot(ray.direction);
         let away = to_light.cross(ray.direction);
@@ -91,7 +91,7 @@ impl Round {
         let h = away.length().max(1e-9);
         let place = |angle: f64| t + h * angle.tan();
         let angle = |x: f64| ((x - t) / h).atan().clamp(-END, END);
-        // The ball about it, as the light sees it in the plane of light and ray.
+        // Its bounding ball, as the light sees it in the plane of light and ray.
         let ball = self.shape.ball();
         let (along, beside) = (-light.dot(ray.direction), -light.dot(across));
         let distance = along.hypot(beside);
@@ -104,16 +104,17 @@ impl Round {
         } else {
             (along.atan2(beside), (radius2.sqrt() / distance).asin())
         };
-        let (from, to) = (angle(0.0).max(middle - half), angle(way).min(middle + half));
+        let (from, to) = (angle(0.0).max(middle - half), angle(length).min(middle + half));
         let least = |angle: f64| {
             let direction = across * angle.cos() + ray.direction * angle.sin();
-            self.shape.least(&Way { origin: light, direction, length: h / angle.cos() })
+            self.shape.least(&Segment { origin: light, direction, length: h / angle.cos() })
         };
-        let end = |angle: f64| if way.is_infinite() && angle >= END { way } else { place(angle).clamp(0.0, way) };
+        let end =
+            |angle: f64| if length.is_infinite() && angle >= END { length } else { place(angle).clamp(0.0, length) };
         negative(from, to, &least).into_iter().map(|part| part.map(end)).collect()
     }
 
-    fn hidden_along(&self, direction: DVec3, ray: &Ray, way: f64) -> Vec<[f64; 2]> {
+    fn hidden_along(&self, direction: DVec3, ray: &Ray, length: f64) -> Vec<[f64; 2]> {
         // Where the ray is within the ball's beam: |from + x step| <= ball, both across the light.
         let across = |v: DVec3| v - v.dot(direction) * direction;
         let (from, step) = (across(ray.origin), across(ray.direction));
@@ -124,14 +125,14 @@ impl Round {
         }
         let least = |x: f64| {
             let origin = ray.origin + x * ray.direction;
-            self.shape.least(&Way { origin, direction: -direction, length: f64::INFINITY })
+            self.shape.least(&Segment { origin, direction: -direction, length: f64::INFINITY })
         };
-        negative(((-b - root) / a).max(0.0), ((-b + root) / a).min(way), &least)
+        negative(((-b - root) / a).max(0.0), ((-b + root) / a).min(length), &least)
     }
 }
 
 impl Shape {
-    /// Radius of the ball about the origin that holds it, and a little more.
+    /// Radius of a ball about the origin that is slightly larger than the shape.
     fn ball(&self) -> f64 {
         match *self {
             Self::Sphere { radius } => 1.001 * radius,
@@ -150,16 +151,16 @@ impl Shape {
         }
     }
 
-    /// The least value on a way; positive where it passes by.
-    fn least(&self, way: &Way) -> f64 {
-        let value = |at: &f64| self.value(way.origin + *at * way.direction);
-        self.turns(way).iter().map(value).fold(f64::INFINITY, f64::min)
+    /// The least value on a segment; positive if the segment misses the shape.
+    fn least(&self, segment: &Segment) -> f64 {
+        let value = |at: &f64| self.value(segment.origin + *at * segment.direction);
+        self.turns(segment).iter().map(value).fold(f64::INFINITY, f64::min)
     }
 
-    /// The ends of the part of a way that is in the ball, and between them where the value turns, in order; none where the
-    /// way passes the ball by.
-    fn turns(&self, way: &Way) -> Vec<f64> {
-        let Way { origin, direction, length } = *way;
+    /// The ends of the part of a segment that is in the ball, and the turning points of the value between them, in order;
+    /// empty if the segment misses the ball.
+    fn turns(&self, segment: &Segment) -> Vec<f64> {
+        let Segment { origin, direction, length } = *segment;
         let (middle, closest) = (-origin.dot(direction), origin.cross(direction).length_squared());
         let half = self.ball().powi(2) - closest;
         if half <= 0.0 {
@@ -205,9 +206,9 @@ fn roots(c: [f64; 4], low: f64, high: f64) -> Vec<f64> {
     places.windows(2).filter_map(part).collect()
 }
 
-/// Where a condition begins to hold that does at `high` and does not at `low`.
+/// Where a condition begins to hold that holds at `high` but not at `low`.
 fn change(mut low: f64, mut high: f64, holds: &dyn Fn(f64) -> bool) -> f64 {
-    for _ in 0..HALVINGS {
+    for _ in 0..BISECTIONS {
         let middle = 0.5 * (low + high);
         if holds(middle) { high = middle } else { low = middle }
     }
@@ -219,11 +220,11 @@ fn negative(low: f64, high: f64, of: &dyn Fn(f64) -> f64) -> Vec<[f64; 2]> {
     if low >= high {
         return Vec::new();
     }
-    let mut places: Vec<(f64, f64)> = (0..=LOOKS)
-        .map(|look| low + (high - low) * look as f64 / LOOKS as f64)
+    let mut places: Vec<(f64, f64)> = (0..=SAMPLES)
+        .map(|sample| low + (high - low) * sample as f64 / SAMPLES as f64)
         .map(|place| (place, of(place)))
         .collect();
-    // What turns toward zero between looks may pass it there.
+    // A value that turns toward zero between samples may cross it there.
     let turning: Vec<(f64, f64)> = places
         .windows(3)
         .filter(|near| near.iter().all(|(_, value)| (*value < 0.0) == (near[1].1 < 0.0)))
@@ -249,10 +250,10 @@ fn negative(low: f64, high: f64, of: &dyn Fn(f64) -> f64) -> Vec<[f64; 2]> {
     parts
 }
 
-/// By thirds: where a function that turns once is nearest to zero, or on its other side.
+/// Where a function that turns once is nearest to zero, or beyond it, by ternary search.
 fn nearest_to_zero(mut low: f64, mut high: f64, of: &dyn Fn(f64) -> f64) -> (f64, f64) {
     let sign = of(0.5 * (low + high)).signum();
-    for _ in 0..HALVINGS {
+    for _ in 0..BISECTIONS {
         let [left, right] = [1.0, 2.0].map(|third| low + (high - low) * third / 3.0);
         if sign * of(left) < sign * of(right) { high = right } else { low = left }
     }
@@ -323,10 +324,10 @@ mod tests {
         let lights = [lamp(DVec3::new(1.0, 3.0, 0.5)), lamp(DVec3::new(0.1, 0.2, -0.1)), sun];
         let (mut compared, mut split) = (0, 0);
         for (light, ray) in lights.iter().flat_map(|light| rays().into_iter().map(move |ray| (light, ray))) {
-            let way = torus.entry(&ray, f64::INFINITY).unwrap_or(f64::INFINITY);
-            let found = torus.hidden(light, &ray, way);
-            let lit = lit_intervals(light, &triangles, &ray, way);
-            let dark = way.min(50.0) - length(&lit);
+            let distance = torus.entry(&ray, f64::INFINITY).unwrap_or(f64::INFINITY);
+            let found = torus.hidden(light, &ray, distance);
+            let lit = lit_intervals(light, &triangles, &ray, distance);
+            let dark = distance.min(50.0) - length(&lit);
             assert!((length(&found) - dark).abs() < 0.03 + 0.01 * dark, "{light:?} {ray:?} {found:?} {lit:?}");
             compared += usize::from(dark > 0.1);
             split += usize::from(found.len() > 1);

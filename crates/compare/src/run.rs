@@ -1,4 +1,4 @@
-//! A comparison under way.
+//! Running a comparison.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use crate::prepare::PreparedScene;
 use crate::report::Comparison;
 use crate::truth::{Geometry, Seen, Truth};
 
-/// Told of what is being done; the second is how many steps were done since it was told last, of [`steps`] in all.
+/// Called with what is being done, and the number of steps done since the last call, of [`steps`] in all.
 pub type Progress<'a> = &'a (dyn Fn(Option<&str>, u64) + Sync);
 
 /// Why a comparison ended early.
@@ -33,7 +33,7 @@ pub enum Error {
         method: String,
         /// The scene's name in the file.
         scene: String,
-        /// Why not.
+        /// The reason.
         error: tyndall_render::Error,
     },
     /// The machine could not render the geometry of a scene.
@@ -41,13 +41,13 @@ pub enum Error {
     Geometry {
         /// The scene's name in the file.
         scene: String,
-        /// Why not.
+        /// The reason.
         error: tyndall_render::Error,
     },
 }
 
 impl Error {
-    /// What the machine or the input lacks.
+    /// The underlying error.
     pub fn cause(&self) -> &tyndall_render::Error {
         match self {
             Self::Method { error, .. } | Self::Geometry { error, .. } => error,
@@ -61,11 +61,11 @@ pub fn steps(file: &CompareFile, rounds: u32) -> u64 {
     file.scenes.len() as u64 * (u64::from(file.size.1) + turns)
 }
 
-/// Draws every scene by every method, compares each picture with light in double precision, and times the methods in
-/// `rounds` turns.
+/// Draws every scene by every method, compares each picture with double precision, and times the methods in `rounds`
+/// rounds.
 ///
 /// # Errors
-/// Where the machine cannot run a method, with its name.
+/// If the machine cannot run a method; the error names it.
 pub fn compare(
     gpu: &Arc<Gpu>,
     registry: &Registry,
@@ -79,7 +79,7 @@ pub fn compare(
     let scenes = scenes.iter().enumerate().map(|scene| work.scene(scene)).collect::<Result<Vec<_>, _>>()?;
     let figures = Figures {
         about: file.about.clone(),
-        output: file.light.output(),
+        output: file.output.name(),
         shadows: file.shadows,
         adapter: gpu.info.name.clone(),
         size: file.size,
@@ -111,7 +111,7 @@ fn methods(file: &CompareFile) -> Vec<Method> {
     methods
 }
 
-/// What all scenes share.
+/// The state that all scenes share.
 struct Work<'a> {
     gpu: &'a Arc<Gpu>,
     registry: &'a Registry,
@@ -180,7 +180,7 @@ impl Work<'_> {
         let twin = scene.scene.twin(0.0, f64::from(width) / f64::from(height));
         let casters = self.file.shadows.then(|| Casters::new(&scene.scene));
         let seen = Seen { scene: &twin, geometry: &geometry, casters: casters.as_ref() };
-        Ok(Truth::new(self.file.light, seen, self.file.size, &|| (self.progress)(None, 1)))
+        Ok(Truth::new(self.file.output, seen, self.file.size, &|| (self.progress)(None, 1)))
     }
 
     fn draw(&mut self, names: &Names<'_>, of: (usize, &str), found: &[[f32; 3]], errors: &Errors, mean: f64) {

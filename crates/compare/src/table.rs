@@ -11,7 +11,7 @@ const COLUMNS: [&str; 11] =
 pub(crate) fn legend(figures: &Figures) -> String {
     let Figures { adapter, size: (width, height), rounds, .. } = figures;
     let (outlines, moving, kept) = if figures.shadows {
-        let outlines = " but those on outlines (another object, light or number of lit parts within 3x3 pixels), which the sum has";
+        let outlines = " except those on outlines (another object, light or number of lit parts within 3x3 pixels), which count in the sum";
         (outlines, "the camera moves", "tables and shadow maps")
     } else {
         ("", "camera and lights move", "tables")
@@ -27,7 +27,7 @@ pub(crate) fn legend(figures: &Figures) -> String {
     )
 }
 
-/// What the figures over all scenes are.
+/// What the figures over all scenes mean.
 pub(crate) const OVER_ALL: &str =
     "All scenes: the median of the scenes' p50, the worst of the other errors, the sum of times, the most memory.";
 
@@ -145,13 +145,13 @@ mod tests {
 
     #[test]
     fn errors_have_two_digits() {
-        let told = [0.0, 1.234e-6, 9.87e-5, 1.5e-4, 0.00234, 0.0456, 0.789, 3.9, 129.47, f64::INFINITY].map(error);
-        assert_eq!(told, ["0", "1.2e-6", "9.9e-5", "0.015 %", "0.23 %", "4.6 %", "79 %", "390 %", "129×", "∞"]);
+        let texts = [0.0, 1.234e-6, 9.87e-5, 1.5e-4, 0.00234, 0.0456, 0.789, 3.9, 129.47, f64::INFINITY].map(error);
+        assert_eq!(texts, ["0", "1.2e-6", "9.9e-5", "0.015 %", "0.23 %", "4.6 %", "79 %", "390 %", "129×", "∞"]);
     }
 
     #[test]
     fn times_have_three() {
-        let told = [Some(4.26), Some(123.0), Some(4567.0), Some(45_670.0), Some(456_700.0), None].map(time);
-        assert_eq!(told, ["4.3 µs", "0.12 ms", "4.57 ms", "45.7 ms", "457 ms", "-"]);
+        let texts = [Some(4.26), Some(123.0), Some(4567.0), Some(45_670.0), Some(456_700.0), None].map(time);
+        assert_eq!(texts, ["4.3 µs", "0.12 ms", "4.57 ms", "45.7 ms", "457 ms", "-"]);
     }
 }

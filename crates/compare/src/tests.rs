@@ -3,10 +3,13 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use tyndall_document::{Code, Diagnostics, MISSING_FILE, Source, UNKNOWN_FIELD, fixture, render_text};
+use tyndall_document::{
+    BAD_SIZE, BAD_VERSION, Code, Diagnostics, MISSING_FILE, NEWER_VERSION, OUT_OF_RANGE, Source, UNKNOWN_FIELD,
+    fixture, render_text,
+};
 use tyndall_gpu::PortData;
 use tyndall_graph::Resource;
-use tyndall_graph::codes::{BAD_SIZE, BAD_VERSION, NEWER_VERSION, OUT_OF_RANGE, UNKNOWN_OUTPUT, UNKNOWN_PARAMETER};
+use tyndall_graph::codes::{UNKNOWN_OUTPUT, UNKNOWN_PARAMETER};
 use tyndall_graph::descriptor::{Dimension, Format};
 use tyndall_image::metrics::{Percentiles, percentiles};
 use tyndall_plugin::Registry;
@@ -15,7 +18,7 @@ use tyndall_shaders::ray::ray_of_pixel;
 use tyndall_shaders::shadow_map::nearest;
 
 use crate::casters::Casters;
-use crate::truth::{Geometry, Light, Seen, Truth};
+use crate::truth::{Geometry, Output, Seen, Truth};
 use crate::{codes, prepare, read};
 
 fn registry() -> Registry {
@@ -39,7 +42,7 @@ fn mistakes(source: &Arc<Source>, registry: &Registry) -> Diagnostics {
     out
 }
 
-/// Those of other crates are here for their places: a setting stands in the comparison file.
+/// Codes of other crates are here for their places: a setting is in the comparison file.
 #[test]
 fn every_mistake_has_its_text_and_place() {
     let elsewhere = [
@@ -72,8 +75,8 @@ fn the_shipped_files_have_none() {
     }
 }
 
-/// A wall that faces the eye from 2 m, the lamp at the eye's side: without a medium the truth is the contract's formula,
-/// and fog that reaches to the wall adds light where the wall faces away from a lamp behind it.
+/// A wall that faces the eye from 2 m, the lamp beside the eye: without a medium the truth is that of a Phong surface,
+/// (ρ/π·(n·l) + k_s·cosⁿα)·I/d², and fog that reaches to the wall adds light where the wall faces away from a lamp behind it.
 #[test]
 fn the_truth_of_surfaces() {
     let size = (1, 1);
@@ -92,7 +95,7 @@ fn the_truth_of_surfaces() {
         let (scene, _) = Scene::from_source(&source, Path::new(""), &Vec::new()).unwrap();
         let twin = scene.twin(0.0, 1.0);
         let seen = Seen { scene: &twin, geometry: &wall, casters: None };
-        Truth::new(Light::Surface, seen, size, &|| ()).pixels[0].to_array()
+        Truth::new(Output::Surface, seen, size, &|| ()).pixels[0].to_array()
     };
     let [red, green, _] = light(2.0, 0.0);
     let brdf = |rho: f64| rho / std::f64::consts::PI + 0.2;
@@ -164,7 +167,7 @@ fn the_truth_with_shadows_agrees_with_reference_data() {
         let (twin, casters) = (scene.twin(0.0, 4.0 / 3.0), Casters::new(&scene));
         let geometry = met(&scene, &twin, size);
         let truth =
-            |casters| Truth::new(Light::Airlight, Seen { scene: &twin, geometry: &geometry, casters }, size, &|| ());
+            |casters| Truth::new(Output::Airlight, Seen { scene: &twin, geometry: &geometry, casters }, size, &|| ());
         let shadowed = truth(Some(&casters));
         let samples = tyndall_image::read_array(&folder.join(format!("{name}.shadowed.npy"))).unwrap();
         let (samples, _) = samples.data.as_chunks::<5>();
@@ -194,7 +197,7 @@ fn truth_errors(name: &str) -> Percentiles {
     let size = (160, 120);
     let (twin, geometry) = (scene.twin(0.0, 4.0 / 3.0), nothing_met(size));
     let seen = Seen { scene: &twin, geometry: &geometry, casters: None };
-    let truth = Truth::new(Light::Airlight, seen, size, &|| ());
+    let truth = Truth::new(Output::Airlight, seen, size, &|| ());
     let samples = tyndall_image::read_array(&folder.join(format!("{name}.airlight.npy"))).unwrap();
     let (samples, _) = samples.data.as_chunks::<5>();
     assert!(samples.len() > 1_000);

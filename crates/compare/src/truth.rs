@@ -1,4 +1,4 @@
-//! What the pictures are compared with: light in double precision, by the twins of the shaders.
+//! The reference that pictures are compared with: light in double precision, by the twins of the shaders.
 
 use std::num::NonZero;
 use std::sync::Mutex;
@@ -14,20 +14,20 @@ use tyndall_shaders::scene::Scene;
 
 use crate::casters::Casters;
 
-/// What is compared: an output that the shipped graphs have.
+/// An output that can be compared; the shipped graphs have them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Light {
+pub(crate) enum Output {
     /// Light that the medium scatters once toward the eye, up to the nearest surface.
     Airlight,
     /// Light that the nearest surface reflects, straight from the lights and scattered once before, attenuated to the eye.
     Surface,
 }
 
-impl Light {
+impl Output {
     pub const ALL: [Self; 2] = [Self::Airlight, Self::Surface];
 
     /// The name of the output.
-    pub fn output(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Airlight => "airlight",
             Self::Surface => "surface",
@@ -42,18 +42,18 @@ impl Light {
             (Self::Airlight, Some(lit)) => {
                 lights.zip(lit).flat_map(|(light, lit)| lit.iter().map(move |part| over(light, *part))).sum()
             }
-            (Self::Airlight, None) => lights.map(|light| over(light, [0.0, met.way])).sum(),
-            (Self::Surface, _) if met.way.is_finite() => {
+            (Self::Airlight, None) => lights.map(|light| over(light, [0.0, met.distance])).sum(),
+            (Self::Surface, _) if met.distance.is_finite() => {
                 let surface = met.surface(ray);
                 let leaving: DVec3 = lights.map(|light| reflected(light, &scene.medium, &surface)).sum();
-                leaving * transmittance(&scene.medium, met.way)
+                leaving * transmittance(&scene.medium, met.distance)
             }
             (Self::Surface, _) => DVec3::ZERO,
         }
     }
 }
 
-/// What the rays of all pixels meet, as it is rendered: the truth is the light's, not the geometry's.
+/// What the rays of all pixels meet, as rendered: the truth concerns the light, not the geometry.
 #[derive(Debug, Clone)]
 pub(crate) struct Geometry {
     /// Metres along the ray, infinite where there is no surface.
@@ -62,9 +62,9 @@ pub(crate) struct Geometry {
     pub normal: PortData,
     /// Layer 0: Lambert reflectance; layer 1: Phong reflectance, and the shininess.
     pub material: PortData,
-    /// Of each triangle, the object that it belongs to.
+    /// The object that each triangle belongs to.
     pub objects: Vec<usize>,
-    /// 1 + the triangle that is met, 0 of none.
+    /// 1 + the index of the triangle that is met; 0 for none.
     pub triangle: PortData,
 }
 
@@ -77,7 +77,7 @@ impl Geometry {
         };
         let (specular, shininess) = texel(&self.material, 1);
         Met {
-            way: texel(&self.depth, 0).0.x,
+            distance: texel(&self.depth, 0).0.x,
             normal: texel(&self.normal, 0).0,
             diffuse: texel(&self.material, 0).0,
             specular,
@@ -92,9 +92,9 @@ impl Geometry {
     }
 }
 
-/// What a ray meets; nothing where the way is infinite.
+/// What a ray meets; nothing if the distance is infinite.
 struct Met {
-    way: f64,
+    distance: f64,
     normal: DVec3,
     diffuse: DVec3,
     specular: DVec3,
@@ -103,10 +103,10 @@ struct Met {
 
 impl Met {
     fn surface(&self, ray: &Ray) -> Surface {
-        let Self { way, diffuse, specular, shininess, .. } = *self;
+        let Self { distance, diffuse, specular, shininess, .. } = *self;
         let normal = if self.normal.dot(ray.direction) > 0.0 { -self.normal } else { self.normal };
         let mirrored = ray.direction.reflect(normal);
-        Surface { position: ray.at(way), normal, mirrored, diffuse, specular, shininess }
+        Surface { position: ray.at(distance), normal, mirrored, diffuse, specular, shininess }
     }
 }
 
@@ -115,29 +115,29 @@ impl Met {
 pub(crate) struct Truth {
     /// Row by row from the top, W/(sr m²).
     pub pixels: Vec<DVec3>,
-    /// Of each pixel, whether an outline runs there: the object, the lights that reach it, or the number of lit parts of the
-    /// ray is another within 3×3 pixels. `None` where nothing casts a shadow.
+    /// Whether there is an outline at each pixel: the object, the lights that reach it, or the number of lit parts of the
+    /// ray differ within 3×3 pixels. `None` if there are no shadows.
     pub edges: Option<Vec<bool>>,
 }
 
-/// What a pixel shows, as far as outlines go: its object, and of each light whether it reaches that, and the number of lit
-/// parts of the ray.
+/// What decides about outlines at a pixel: its object, and for each light whether it reaches the object, and the number of
+/// lit parts of the ray.
 type Outlined = (Option<usize>, Vec<(bool, usize)>);
 
-/// What of a scene the truth is of.
+/// What the truth is computed from.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Seen<'a> {
     /// Camera, medium and lights.
     pub scene: &'a Scene,
     /// Where the rays end.
     pub geometry: &'a Geometry,
-    /// What casts shadows, where anything is to.
+    /// What casts shadows, if shadows are computed.
     pub casters: Option<&'a Casters>,
 }
 
 impl Truth {
     /// Of a scene. Calls `row_done` after each row. Rows are shared out among the processors.
-    pub fn new(light: Light, seen: Seen<'_>, (width, height): (u32, u32), row_done: &(dyn Fn() + Sync)) -> Self {
+    pub fn new(output: Output, seen: Seen<'_>, (width, height): (u32, u32), row_done: &(dyn Fn() + Sync)) -> Self {
         let rows = Mutex::new(vec![Vec::new(); height as usize]);
         let next = AtomicU32::new(0);
         let work = || {
@@ -146,7 +146,7 @@ impl Truth {
                 if y >= height {
                     break;
                 }
-                let row: Vec<_> = (0..width).map(|x| seen.pixel(light, [x, y], [width, height])).collect();
+                let row: Vec<_> = (0..width).map(|x| seen.pixel(output, [x, y], [width, height])).collect();
                 rows.lock().unwrap_or_else(|poisoned| poisoned.into_inner())[y as usize] = row;
                 row_done();
             }
@@ -162,27 +162,27 @@ impl Truth {
         Self { pixels, edges }
     }
 
-    /// Over all channels of all pixels.
+    /// The mean over all channels of all pixels.
     pub fn mean(&self) -> f64 {
         self.pixels.iter().map(|pixel| pixel.element_sum()).sum::<f64>() / (3.0 * self.pixels.len() as f64)
     }
 }
 
 impl Seen<'_> {
-    fn pixel(&self, light: Light, [x, y]: [u32; 2], size: [u32; 2]) -> (DVec3, Outlined) {
+    fn pixel(&self, output: Output, [x, y]: [u32; 2], size: [u32; 2]) -> (DVec3, Outlined) {
         let ray = ray_of_pixel(&self.scene.camera, [x, y], size);
         let mut met = self.geometry.at(x, y);
         let Some(casters) = self.casters else {
-            return (light.along(self.scene, &ray, &met, None), (None, Vec::new()));
+            return (output.along(self.scene, &ray, &met, None), (None, Vec::new()));
         };
-        met.way = casters.end(&ray, met.way);
-        let lit: Vec<_> = self.scene.lights.iter().map(|light| casters.lit(light, &ray, met.way)).collect();
-        let outlined = lit.iter().map(|lit| (Casters::reaches(lit, met.way), lit.len())).collect();
-        (light.along(self.scene, &ray, &met, Some(&lit)), (self.geometry.object(x, y), outlined))
+        met.distance = casters.end(&ray, met.distance);
+        let lit: Vec<_> = self.scene.lights.iter().map(|light| casters.lit(light, &ray, met.distance)).collect();
+        let outlined = lit.iter().map(|lit| (Casters::reaches(lit, met.distance), lit.len())).collect();
+        (output.along(self.scene, &ray, &met, Some(&lit)), (self.geometry.object(x, y), outlined))
     }
 }
 
-/// Of each pixel, whether another within 3×3 is not alike.
+/// Whether each pixel differs from another within 3×3.
 fn edges(outlined: &[Outlined], width: usize) -> Vec<bool> {
     let height = outlined.len() / width.max(1);
     let is_edge = |at: usize| {

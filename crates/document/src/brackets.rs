@@ -1,4 +1,4 @@
-//! Lists, maps, structs and tuples: what stands in their brackets.
+//! Lists, maps, structs and tuples: the contents of their brackets.
 
 use crate::node::shortened;
 use crate::reader::{Reader, span};
@@ -28,7 +28,7 @@ impl Reader<'_> {
             match reader.byte() {
                 Some(b':') => reader.at += 1,
                 None | Some(b',' | b')' | b']' | b'}') => {
-                    reader.hold(item, key.span, "a map holds `key: value`, and this has no value", None);
+                    reader.hold(item, key.span, "an entry of a map is `key: value`, but this one has no value", None);
                     return Some(());
                 }
                 Some(_) => reader.report_missing_colon(key.span),
@@ -58,12 +58,12 @@ impl Reader<'_> {
                 } else if fields.is_empty() {
                     items.push(value);
                 } else {
-                    reader.hold(item, value.span, "a plain value stands among the fields of a struct", None);
+                    reader.hold(item, value.span, "a plain value is among the fields of a struct", None);
                 }
                 return Some(());
             };
             if !items.is_empty() {
-                let message = format!("the field `{name}` stands among the plain values of a tuple");
+                let message = format!("the field `{name}` is among the plain values of a tuple");
                 reader.hold(item, name_span, message, None);
             }
             reader.skip_space();
@@ -80,7 +80,7 @@ impl Reader<'_> {
         Some(Node { span: span(start, self.at), value })
     }
 
-    /// Reads `name:`. A colon that was forgotten is reported; whether it was can be doubtful, less so `in_struct`.
+    /// Reads `name:`. A forgotten colon is reported; it is less doubtful that it was forgotten `in_struct`.
     fn field_name(&mut self, in_struct: bool) -> Option<(String, Span)> {
         let start = self.at;
         let (name, end) = self.identifier_at(start)?;
@@ -126,27 +126,27 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads the value of a field whose name is no plain one, behind its colon.
+    /// Reads the value of a field whose name is not a plain one, after its colon.
     fn quoted_field(&mut self, item: usize, name: &Node) -> Option<Field> {
         match &name.value {
             Value::Text(text) => {
                 let suggestion = format!("write `{}: …`, or `{{ … }}` for a map", shortened(text));
-                self.hold(item, name.span, "the name of a field stands in quotes", Some(&suggestion));
+                self.hold(item, name.span, "a field name has no quotes", Some(&suggestion));
             }
-            _ => self.hold(item, name.span, "the name of a field is no plain name", Some("maps are written `{ … }`")),
+            _ => self.hold(item, name.span, "this is not a field name", Some("maps are written `{ … }`")),
         }
         self.skip_space();
         let value = self.value()?;
         Some(Field { name: self.source.slice(name.span).to_owned(), name_span: name.span, value })
     }
 
-    /// Reports where an item of a list turns out to be the key of an entry, and reads on behind it.
+    /// Reports an item of a list that turns out to be the key of an entry, and reads on after it.
     fn refuse_entry(&mut self, item: usize) -> Option<()> {
         self.skip_space();
         if self.byte() == Some(b':') {
             let suggestion = "maps are written `{ key: value }`, structs `(name: value)`";
             let key = span(item, self.token_end(item));
-            self.hold(item, key, "an entry `key: value` stands in a list", Some(suggestion));
+            self.hold(item, key, "a list cannot hold an entry `key: value`", Some(suggestion));
             self.at += 1;
             self.skip_space();
             self.value()?;
@@ -154,7 +154,7 @@ impl Reader<'_> {
         Some(())
     }
 
-    /// Reports a mistake in the items of a bracket that is no syntax error.
+    /// Reports a mistake in the items of a bracket that is not a syntax error.
     pub fn report_duplicate(&mut self, code: Code, second: Span, first: Span, message: String) {
         let diagnostic = Diagnostic::error(code, self.source.place(second), message);
         self.out.push(diagnostic.relate(self.source.place(first), "first here"));

@@ -1,4 +1,4 @@
-//! Closing brackets: missing ones, wrong ones, and which one it probably was.
+//! Closing brackets: missing ones, wrong ones, and which bracket was probably meant.
 
 use crate::reader::{Held, Reader, space_end};
 use crate::{MISPLACED_ENTRY, UNCLOSED_BRACKET, UNOPENED_BRACKET};
@@ -30,15 +30,15 @@ impl Reader<'_> {
 
     /// Reports a closing bracket that closes nothing, and moves over it.
     pub fn report_unopened(&mut self) {
-        let message = format!("{} closes nothing", self.token(self.at));
+        let message = format!("{} has no opening bracket", self.token(self.at));
         let error = self.error(UNOPENED_BRACKET, self.at, self.at + 1, message);
         self.brackets_broken = true;
         self.at += 1;
         self.report(error);
     }
 
-    /// The closing bracket here is that of a bracket further out: the one in between is not closed. Items that did
-    /// not suit it stand behind its missing end, so the first of them is where it was noticed.
+    /// The closing bracket here is that of a bracket further out, so the one in between is not closed. Items that do not
+    /// suit it come after its missing end, so the first of them is where it was noticed.
     pub fn report_unclosed(&mut self, opened: usize, held: usize) {
         let mut others: Vec<_> = self.held.drain(held..).collect();
         let misplaced = others.iter().position(|held| held.diagnostic.code == MISPLACED_ENTRY);
@@ -57,8 +57,8 @@ impl Reader<'_> {
         self.report(error);
     }
 
-    /// The text ends within brackets: one report for all of them. One whose closing bracket stands elsewhere than
-    /// under it is the likeliest one, for it took that of another.
+    /// The text ends within brackets: one report for all of them. The likeliest culprit is one whose closing bracket is
+    /// indented differently, for that was meant to close another one.
     pub fn report_end_within(&mut self, opened: usize, held: usize) {
         let others: Vec<_> = self.held.drain(held..).collect();
         let (misplaced, others): (Vec<_>, Vec<_>) =
@@ -74,7 +74,7 @@ impl Reader<'_> {
         if let Some(index) = self.ended_within {
             const MOST_RELATED: usize = 3;
             if let Some(report) = self.out.get_mut(index).filter(|report| report.related.len() < MOST_RELATED) {
-                report.related.push((place, "nor is this one".to_owned()));
+                report.related.push((place, "this one is not closed either".to_owned()));
             }
             return;
         }
@@ -103,8 +103,8 @@ impl Reader<'_> {
         self.report(error);
     }
 
-    /// Remembers the first closing bracket that begins a line and is indented otherwise than its opening bracket's.
-    /// True where this is it.
+    /// Remembers the first closing bracket that begins a line and is indented differently from the line of its opening
+    /// bracket. Returns whether this is it.
     pub fn note_suspect(&mut self, opened: usize) -> bool {
         let before = &self.bytes[..self.at];
         let indentation = before.iter().rev().take_while(|byte| matches!(byte, b' ' | b'\t')).count();
@@ -117,7 +117,7 @@ impl Reader<'_> {
         true
     }
 
-    /// Reports what was held when a bracket seemed to be closed in the wrong place, for it was not.
+    /// Reports what was held when a bracket seemed to be closed in the wrong place, because it was not.
     pub fn report_suspect_held(&mut self) {
         let held = std::mem::take(&mut self.suspect_held);
         held.into_iter().for_each(|held| self.report_held(held));

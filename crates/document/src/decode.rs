@@ -1,14 +1,14 @@
-//! From nodes to typed values, with a report where something does not fit.
+//! From nodes to typed values; what does not fit is reported.
 
 use std::sync::Arc;
 
 use crate::node::shortened;
 use crate::{
-    Diagnostic, Diagnostics, Field, MISSING_FIELD, NOT_FINITE, Node, Place, Source, Span, UNKNOWN_FIELD,
-    UNKNOWN_VARIANT, Value, WRONG_TYPE, near,
+    BAD_VERSION, Diagnostic, Diagnostics, Field, MISSING_FIELD, NEWER_VERSION, NOT_FINITE, Node, Place, Source, Span,
+    UNKNOWN_FIELD, UNKNOWN_VARIANT, Value, WRONG_TYPE,
 };
 
-/// Reads typed values out of the nodes of one source. Each method reports what does not fit and then gives `None`.
+/// Reads typed values out of the nodes of one source. Each method returns `None` after it has reported a mistake.
 pub struct Decoder<'a> {
     /// The source that the nodes came from.
     pub source: &'a Arc<Source>,
@@ -54,7 +54,7 @@ impl<'a> Decoder<'a> {
         }
     }
 
-    /// A finite number ([`NOT_FINITE`] otherwise); integers serve.
+    /// A finite number ([`NOT_FINITE`] otherwise); integers are numbers too.
     pub fn float(&mut self, node: &Node) -> Option<f64> {
         match node.value {
             Value::Number(number) if number.value.is_finite() => Some(number.value),
@@ -70,7 +70,7 @@ impl<'a> Decoder<'a> {
         }
     }
 
-    /// A number without point and exponent that fits 64 bits.
+    /// A number without a point or an exponent that fits 64 bits.
     pub fn integer(&mut self, node: &Node) -> Option<i64> {
         match node.value {
             Value::Number(number) if number.integer.is_some() => number.integer,
@@ -79,6 +79,20 @@ impl<'a> Decoder<'a> {
                 self.wrong_type(node, "an integer");
                 None
             }
+        }
+    }
+
+    /// The version of the file's format, of which versions 1 to `newest` are known; reported where it is another
+    /// ([`BAD_VERSION`], [`NEWER_VERSION`]).
+    pub fn version(&mut self, node: &Node, newest: i64) {
+        let Some(version) = self.integer(node) else { return };
+        let place = self.place(node.span);
+        if version > newest {
+            let message = format!("this file has version {version}, but this program reads versions up to {newest}");
+            self.report(Diagnostic::error(NEWER_VERSION, place, message).suggest("use a newer program"));
+        } else if version < 1 {
+            let message = format!("there is no version {version}");
+            self.report(Diagnostic::error(BAD_VERSION, place, message).suggest(format!("write version: {newest}")));
         }
     }
 
@@ -109,7 +123,7 @@ impl<'a> Decoder<'a> {
         }
     }
 
-    /// `{ "key": value, … }` as key, its place, and value, in the order of the file. Keys that are no strings are
+    /// `{ "key": value, … }` as keys, their places, and values, in the order of the file. Keys that are not strings are
     /// reported and left out.
     pub fn map<'n>(&mut self, node: &'n Node) -> Option<Vec<(&'n str, Span, &'n Node)>> {
         match &node.value {
@@ -149,7 +163,7 @@ impl<'a> Decoder<'a> {
     }
 
     /// `(name: value, …)`, or `()` for one without fields. `what` names it in messages, with its article (`a pass`).
-    /// A field that is not among the known ones is reported ([`UNKNOWN_FIELD`]) with the name that was probably meant.
+    /// Fields that are not among the known ones are reported ([`UNKNOWN_FIELD`]).
     pub fn fields<'n>(&mut self, node: &'n Node, what: &str, known: &[&str]) -> Option<Fields<'n>> {
         let fields: &[Field] = match &node.value {
             Value::Struct(fields) => fields,
@@ -166,21 +180,17 @@ impl<'a> Decoder<'a> {
         for field in fields.iter().filter(|field| !known.contains(&field.name.as_str())) {
             let message = format!("{what} has no field `{}`", shortened(&field.name));
             let diagnostic = Diagnostic::error(UNKNOWN_FIELD, self.place(field.name_span), message);
-            let suggestion = meant_or_known(&field.name, known, "fields");
-            self.out.push(match suggestion {
-                Some(suggestion) => diagnostic.suggest(suggestion),
-                None => diagnostic,
-            });
+            self.out.push(diagnostic.suggest_near(&field.name, known.iter().copied()));
         }
         Some(Fields { fields, span: node.span, what: what.to_owned() })
     }
 
-    /// `Name` or `Name(…)` with a known name ([`UNKNOWN_VARIANT`] otherwise), and what stands in its parentheses.
+    /// `Name` or `Name(…)` with a known name ([`UNKNOWN_VARIANT`] otherwise), and the content of its parentheses.
     /// `what` names it in messages, with its article (`a light`).
     pub fn variant<'n>(&mut self, node: &'n Node, what: &str, known: &[&str]) -> Option<(&'n str, Option<&'n Node>)> {
         let Value::Variant { name, name_span, content } = &node.value else {
             let diagnostic = self.wrong_type_diagnostic(node, what);
-            self.out.push(diagnostic.suggest(format!("one of {}", known.join(", "))));
+            self.out.push(diagnostic.suggest_available(known));
             return None;
         };
         if known.contains(&name.as_str()) {
@@ -188,20 +198,8 @@ impl<'a> Decoder<'a> {
         }
         let message = format!("`{}` is not {what}", shortened(name));
         let diagnostic = Diagnostic::error(UNKNOWN_VARIANT, self.place(*name_span), message);
-        self.out.push(match meant_or_known(name, known, "names") {
-            Some(suggestion) => diagnostic.suggest(suggestion),
-            None => diagnostic,
-        });
+        self.out.push(diagnostic.suggest_near(name, known.iter().copied()));
         None
-    }
-}
-
-/// `did you mean …`, or the names that there are, if any.
-fn meant_or_known(name: &str, known: &[&str], names: &str) -> Option<String> {
-    match near(name, known.iter().copied()) {
-        Some(name) => Some(format!("did you mean `{name}`?")),
-        None if known.is_empty() => None,
-        None => Some(format!("known {names}: {}", known.join(", "))),
     }
 }
 
@@ -224,17 +222,17 @@ impl<'n> Fields<'n> {
         self.fields.iter()
     }
 
-    /// What was given to a field; the first where it stands twice.
+    /// The value of a field; the first one where it is given twice.
     pub fn get(&self, name: &str) -> Option<&'n Node> {
         self.field(name).map(|field| &field.value)
     }
 
-    /// A field with its name's place.
+    /// A field with the place of its name.
     pub fn field(&self, name: &str) -> Option<&'n Field> {
         self.fields.iter().find(|field| field.name == name)
     }
 
-    /// What was given to a field that must be there; reported at the struct ([`MISSING_FIELD`]) where it is not.
+    /// The value of a required field; reported at the struct ([`MISSING_FIELD`]) where it is not given.
     pub fn required(&self, decoder: &mut Decoder<'_>, name: &str) -> Option<&'n Node> {
         let node = self.get(name);
         if node.is_none() {

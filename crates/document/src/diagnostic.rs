@@ -1,4 +1,4 @@
-//! What is said about a mistake, and where.
+//! What a mistake is, and where it is.
 
 use std::collections::{HashMap, HashSet};
 use std::fmt;
@@ -19,13 +19,13 @@ impl fmt::Display for Code {
 /// How bad it is.
 #[derive(Copy, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Severity {
-    /// Nothing can be made of the input.
+    /// The input cannot be used.
     Error,
-    /// Probably not what was meant, but it has a meaning.
+    /// The input can be used, but is probably not what was meant.
     Warning,
 }
 
-/// Where something stands.
+/// Where something is.
 #[derive(Clone, Debug)]
 pub enum Place {
     /// A part of a text.
@@ -51,7 +51,7 @@ impl Place {
         }
     }
 
-    /// Line and column where it starts, both from 1, columns in characters; only a part of a text has them.
+    /// Line and column where it starts, both counted from 1, columns in characters; only a part of a text has them.
     pub fn line_column(&self) -> Option<(u32, u32)> {
         match self {
             Place::Text { source, span } => Some(source.line_column(span.start)),
@@ -78,31 +78,31 @@ impl PartialEq for Place {
     }
 }
 
-/// One mistake: its class, its place, what is wrong, and what to do about it.
+/// One mistake: its class, its place, what is wrong, and how to correct it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
     /// How bad it is.
     pub severity: Severity,
     /// The class of the mistake.
     pub code: Code,
-    /// Where it stands.
+    /// Where it is.
     pub place: Place,
-    /// What is wrong, with the values: one sentence without a full stop.
+    /// What is wrong, with the values concerned: one sentence without a full stop.
     pub message: String,
     /// What to do.
     pub suggestion: Option<String>,
-    /// The other places involved, each with what stands there.
+    /// The other places involved, each with a remark.
     pub related: Vec<(Place, String)>,
 }
 
 impl Diagnostic {
-    /// A mistake that leaves nothing to be made of the input.
+    /// A mistake with which the input cannot be used.
     pub fn error(code: Code, place: Place, message: impl Into<String>) -> Self {
         let message = message.into();
         Self { severity: Severity::Error, code, place, message, suggestion: None, related: Vec::new() }
     }
 
-    /// Something that has a meaning, but probably not the one that was meant.
+    /// Something that can be used, but is probably not what was meant.
     pub fn warning(code: Code, place: Place, message: impl Into<String>) -> Self {
         Self { severity: Severity::Warning, ..Self::error(code, place, message) }
     }
@@ -114,7 +114,7 @@ impl Diagnostic {
         self
     }
 
-    /// Adds another place that is involved, and what stands there.
+    /// Adds another place that is involved, with a remark.
     #[must_use]
     pub fn relate(mut self, place: Place, message: impl Into<String>) -> Self {
         self.related.push((place, message.into()));
@@ -137,7 +137,7 @@ impl Diagnostics {
         self.0.push(diagnostic);
     }
 
-    /// There is none, not even a warning.
+    /// Whether there are none, not even warnings.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -147,7 +147,7 @@ impl Diagnostics {
         self.0.len()
     }
 
-    /// At least one is an error.
+    /// Whether at least one is an error.
     pub fn has_errors(&self) -> bool {
         self.0.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
@@ -163,7 +163,7 @@ impl Diagnostics {
     }
 
     /// Brings them into the order of the files: files in the order in which they were first named, in a file by
-    /// position, arguments of the command line last. What stands at the same place keeps its order.
+    /// position, arguments of the command line last. Those at the same place keep their order.
     pub fn sort(&mut self) {
         let mut files: HashMap<String, usize> = HashMap::new();
         let mut keyed: Vec<_> = std::mem::take(&mut self.0)
@@ -184,7 +184,7 @@ impl Diagnostics {
         self.0 = keyed.into_iter().map(|(_, diagnostic)| diagnostic).collect();
     }
 
-    /// Removes what was said before: same code, same place, same message. The first one stays.
+    /// Removes repetitions, which have the same code, place and message. The first one stays.
     pub fn dedup(&mut self) {
         let mut seen = HashSet::new();
         self.0.retain(|diagnostic| {

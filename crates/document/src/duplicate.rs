@@ -1,4 +1,4 @@
-//! Names that stand twice.
+//! Names that appear twice.
 
 use std::collections::HashMap;
 
@@ -6,14 +6,14 @@ use crate::node::shortened;
 use crate::reader::Reader;
 use crate::{DUPLICATE_NAME, Field, Node, Span, Value};
 
-/// Up to this many, comparing each with each is faster than a table.
+/// Up to this many, comparing every pair is faster than a table.
 const FEW: usize = 12;
 
 /// Reports fields of one struct that share a name.
 pub(crate) fn report_fields(reader: &mut Reader<'_>, fields: &[Field]) {
     for (second, first) in repeated(fields, |field| Some(field.name.as_str())) {
         let (second, first) = (&fields[second], &fields[first]);
-        let message = format!("the field `{}` stands twice", shortened(&second.name));
+        let message = format!("the field `{}` appears twice", shortened(&second.name));
         reader.report_duplicate(DUPLICATE_NAME, second.name_span, first.name_span, message);
     }
 }
@@ -32,12 +32,12 @@ pub(crate) fn report_keys(reader: &mut Reader<'_>, entries: &[(Node, Node)]) {
     };
     for (second, first) in pairs {
         let (second, first): (Span, Span) = (entries[second].0.span, entries[first].0.span);
-        let message = format!("the key `{}` stands twice", shortened(reader.source.slice(second)));
+        let message = format!("the key `{}` appears twice", shortened(reader.source.slice(second)));
         reader.report_duplicate(DUPLICATE_NAME, second, first, message);
     }
 }
 
-/// A key as a text that equal keys share, the kind in front.
+/// A key as a text that equal keys share, prefixed with its kind.
 fn simple(key: &Node) -> Option<String> {
     match &key.value {
         Value::Text(text) => Some(format!("\"{text}")),

@@ -1,7 +1,7 @@
-//! Holds every code to a fixture that pins its text and position.
+//! Fixtures that pin the text and the position of every code.
 //!
 //! A fixture is a document `CODE.ron`, or `CODE.VARIANT.ron`, and beside it `CODE.txt` (`CODE.VARIANT.txt`) with the
-//! exact text of the diagnostics that it causes. Files are named in that text without their folder.
+//! exact text of the diagnostics that it causes, in which it is named without its folder.
 //!
 //! ```no_run
 //! use tyndall_document::{CODES, Diagnostics, fixture, parse};
@@ -24,7 +24,7 @@ use crate::{Code, Diagnostics, Source, render_text};
 /// texts are written instead of compared; everything else is still checked.
 ///
 /// # Panics
-/// Where a code has no fixture; a fixture's name is no code; the first diagnostic of a fixture has another code; a
+/// Where a code has no fixture; a fixture's name is not a code; the first diagnostic of a fixture has another code; a
 /// text is missing or differs (both are shown); a text has no fixture; the folder holds no fixture or cannot be read.
 pub fn check(dir: &Path, codes: &[Code], run: &dyn Fn(&Arc<Source>) -> Diagnostics) {
     let update = std::env::var_os("UPDATE_FIXTURES").is_some_and(|value| value == "1");
@@ -61,7 +61,7 @@ pub fn problems(dir: &Path, codes: &[Code], run: &dyn Fn(&Arc<Source>) -> Diagno
     for name in &names {
         match codes.iter().find(|code| code.0 == code_of(name)) {
             Some(code) => problems.extend(problem(dir, name, *code, run, update)),
-            None => problems.push(format!("`{name}.ron` is named after no code")),
+            None => problems.push(format!("`{name}.ron` is not named after a code")),
         }
     }
     problems

@@ -7,12 +7,12 @@ use crate::{Diagnostic, Place, Severity};
 /// Most characters of the offending text.
 const MOST_TEXT: usize = 80;
 
-/// One JSON array with an object a diagnostic, an object a line.
+/// A JSON array with one object for each diagnostic, each on a line of its own.
 ///
 /// Members: `code`, `severity` (`error`, `warning`), `file`, `line`, `column` (from 1, in characters), `text` (the
 /// first line of the offending text, at most 80 characters), `message`, `suggestion`, and `related`, an array of the
 /// other places with `file`, `line`, `column`, `text` and `message`. What does not exist is `null`. A place on the
-/// command line has no file, and `argument` besides.
+/// command line has `argument` instead of a file.
 pub fn render_json<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> String {
     let mut json = String::from("[");
     for (index, diagnostic) in diagnostics.into_iter().enumerate() {
@@ -45,7 +45,7 @@ fn write_diagnostic(json: &mut String, diagnostic: &Diagnostic) {
     json.push(']');
 }
 
-/// Writes the members of a place, each with a comma behind it.
+/// Writes the members of a place, each followed by a comma.
 fn write_place(json: &mut String, place: &Place) {
     member(json, "file", place.file());
     match place.line_column() {

@@ -26,7 +26,7 @@ pub enum Value {
     Char(char),
     /// `[a, b]`
     List(Vec<Node>),
-    /// `{ key: value }` in the order of the file. A key that stands twice was reported and is here twice.
+    /// `{ key: value }` in the order of the file. A key that appears twice was reported and is here twice.
     Map(Vec<(Node, Node)>),
     /// `(a, b)`, and `(a)`
     Tuple(Vec<Node>),
@@ -36,10 +36,10 @@ pub enum Value {
     Variant {
         /// The name.
         name: String,
-        /// Where the name stands.
+        /// Where the name is.
         name_span: Span,
-        /// What stands in parentheses behind it: a [`Value::Unit`], [`Value::Tuple`] or [`Value::Struct`] whose span
-        /// holds the parentheses.
+        /// The content of the parentheses after it: a [`Value::Unit`], [`Value::Tuple`] or [`Value::Struct`] whose span
+        /// includes the parentheses.
         content: Option<Box<Node>>,
     },
 }
@@ -58,14 +58,14 @@ pub struct Number {
 pub struct Field {
     /// The name.
     pub name: String,
-    /// Where the name stands.
+    /// Where the name is.
     pub name_span: Span,
-    /// What was given to it.
+    /// The value given to it.
     pub value: Node,
 }
 
 impl Node {
-    /// What stands here, in words for a message: `the number 3`, `a list`, `` `Point(…)` ``.
+    /// What this is, in words for a message: `the number 3`, `a list`, `` `Point(…)` ``.
     pub fn describe(&self) -> String {
         match &self.value {
             Value::Unit => "`()`".to_owned(),

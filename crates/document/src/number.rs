@@ -30,7 +30,7 @@ pub(crate) fn read(token: &str) -> Result<Number, &'static str> {
         };
     }
     if suffix.starts_with(['i', 'u']) {
-        return Err("an integer has no point and no exponent");
+        return Err("an integer cannot have a point or an exponent");
     }
     read_float(token)
 }
@@ -82,13 +82,13 @@ fn read_integer(negative: bool, digits: &str, suffix: &str, radix: u32) -> Resul
     let float_suffix = matches!(suffix, "f32" | "f64");
     let (first, second) = if radix == 16 && float_suffix { (digits, suffix) } else { (digits, "") };
     if float_suffix && radix != 16 {
-        return Err("an integer of this base has no float type");
+        return Err("a number in this base cannot have a float type");
     }
     if first.is_empty() && second.is_empty() {
         return Err("it has no digits");
     }
     if first.starts_with('_') {
-        return Err("an underscore may not stand before the first digit");
+        return Err("an underscore cannot precede the first digit");
     }
     let mut value: i128 = 0;
     for byte in first.bytes().chain(second.bytes()).filter(|byte| *byte != b'_') {
@@ -96,7 +96,7 @@ fn read_integer(negative: bool, digits: &str, suffix: &str, radix: u32) -> Resul
             2 => "a binary digit is 0 or 1",
             8 => "an octal digit is 0 to 7",
             16 => "a hexadecimal digit is 0 to 9 or a to f",
-            _ => "it holds what is no digit",
+            _ => "it has a character that is not a digit",
         })?;
         value = value * i128::from(radix) + i128::from(digit);
         if value > i128::from(u64::MAX) + 1 {
@@ -130,18 +130,18 @@ fn read_float(token: &str) -> Result<Number, &'static str> {
     for character in text.chars() {
         match character {
             '_' if underscore_may_follow => continue,
-            '_' => return Err("an underscore must stand behind a digit"),
+            '_' => return Err("an underscore must follow a digit"),
             '0'..='9' | 'e' | 'E' => underscore_may_follow = true,
             '.' => underscore_may_follow = false,
             '+' | '-' => {}
-            _ => return Err("it holds what is no digit"),
+            _ => return Err("it has a character that is not a digit"),
         }
         digits.push(character);
     }
-    const WRONG: &str = "its digits, point and exponent make no number";
+    const WRONG: &str = "its digits, point and exponent do not form a number";
     match suffix {
         "f32" => digits.parse::<f32>().map(|value| float(value.into())).map_err(|_| WRONG),
         "" | "f64" => digits.parse::<f64>().map(float).map_err(|_| WRONG),
-        _ => Err("an integer has no point and no exponent"),
+        _ => Err("an integer cannot have a point or an exponent"),
     }
 }

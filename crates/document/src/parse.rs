@@ -1,11 +1,11 @@
-//! The reader: from text to a tree, with a report of every syntax error that can be told apart.
+//! The reader: from text to a tree. It reports every syntax error that it can tell apart.
 //!
 //! It accepts what the `ron` crate (0.12) accepts with implicit `Some`, with these differences:
-//! * keys and fields that stand twice are reported (ron: the last one wins, or a late error);
+//! * keys and fields that appear twice are reported (in ron the last one wins, or the error comes late);
 //! * byte strings, byte literals and ranges are refused: nothing in our files has their type;
 //! * of the extensions only `implicit_some` is accepted: the others would change what parentheses mean;
-//! * a byte order mark is passed over (ron refuses it);
-//! * `Name()` and `( )` are a name and a unit (ron's `Value` tells `( )` from `()`).
+//! * a byte order mark is skipped (ron refuses it);
+//! * `Name()` and `( )` are a name and a unit (ron's `Value` distinguishes `( )` from `()`).
 
 use std::sync::Arc;
 
@@ -15,16 +15,16 @@ use crate::{
     TRAILING_TEXT, UNEXPECTED_CHARACTER, UNREADABLE_FILE, UNSUPPORTED_SYNTAX, Value, number,
 };
 
-/// Brackets may stand in brackets this deep; so in the `ron` crate, which counts some of them twice.
+/// Brackets may be nested this deep; so in the `ron` crate, which counts some of them twice.
 pub const MAX_DEPTH: usize = 128;
 
 /// Reads a document. Every syntax error that can be told apart is reported, in the order of the text.
 ///
-/// Gives `None` where there was a syntax error, for what is missing from the tree would be reported a second time.
-/// Names that stand twice are reported, but leave the tree whole.
+/// Returns `None` after a syntax error, because what is missing from the tree would be reported a second time.
+/// Names that appear twice are reported, but leave the tree whole.
 pub fn parse(source: &Arc<Source>, out: &mut Diagnostics) -> Option<Node> {
     if u32::try_from(source.text().len()).is_err() {
-        let message = "a text of 4 GiB or more is not read";
+        let message = "texts of 4 GiB or more are not supported";
         out.push(Diagnostic::error(UNREADABLE_FILE, Place::File(source.name().to_owned()), message));
         return None;
     }
@@ -44,7 +44,7 @@ pub fn parse_value(source: &Arc<Source>, out: &mut Diagnostics) -> Option<Node> 
     let node = parse(source, out);
     for diagnostic in &mut out.as_mut_slice()[first..] {
         diagnostic.place = Place::Argument(source.name().to_owned());
-        // Its parts are one place.
+        // All parts of an argument are one place.
         diagnostic.related.clear();
     }
     node
@@ -90,20 +90,20 @@ impl Reader<'_> {
             (Some(names), _) => {
                 let names = names.strip_suffix(',').unwrap_or(names);
                 if let Some(other) = names.split(',').find(|name| *name != "implicit_some") {
-                    let message = format!("the extension `{}` is not read", crate::node::shortened(other));
+                    let message = format!("the extension `{}` is not supported", crate::node::shortened(other));
                     let error = self.error(UNSUPPORTED_SYNTAX, start, end, message);
                     self.report(error.suggest("leave it out; `implicit_some` is always on"));
                 }
             }
             (None, Some(inner)) if is_note(inner) => {}
             _ => {
-                let error = self.error(BAD_ATTRIBUTE, start, end, "a line `#…` at the start is not understood");
+                let error = self.error(BAD_ATTRIBUTE, start, end, "this `#…` line is not supported");
                 self.report(error.suggest("write `#![enable(implicit_some)]` or leave it out"));
             }
         }
     }
 
-    /// Reads a value; space before it was passed over.
+    /// Reads a value; space before it was skipped.
     pub fn value(&mut self) -> Option<Node> {
         let start = self.at;
         let Some(byte) = self.byte() else {
@@ -133,7 +133,7 @@ impl Reader<'_> {
             _ => match self.identifier_at(start) {
                 Some((name, end)) => self.named(name, end),
                 None => {
-                    let message = format!("{} begins no value", self.token(start));
+                    let message = format!("{} cannot begin a value", self.token(start));
                     let error = self.error(UNEXPECTED_CHARACTER, start, self.token_end(start), message);
                     self.at = self.token_end(start);
                     self.report(error);
@@ -149,14 +149,14 @@ impl Reader<'_> {
         let token = &self.text[start..end];
         self.at = end;
         if token.contains("..") {
-            let error = self.error(UNSUPPORTED_SYNTAX, start, end, "ranges are not read");
+            let error = self.error(UNSUPPORTED_SYNTAX, start, end, "ranges are not supported");
             self.report(error.suggest("write a tuple of two numbers"));
             return None;
         }
         match number::read(token) {
             Ok(number) => Some(Node { span: span(start, end), value: Value::Number(number) }),
             Err(why) => {
-                let message = format!("`{}` is no number: {why}", crate::node::shortened(token));
+                let message = format!("`{}` is not a number: {why}", crate::node::shortened(token));
                 let error = self.error(BAD_NUMBER, start, end, message);
                 self.report(error);
                 None
@@ -214,7 +214,7 @@ impl Reader<'_> {
         Some(Node { span, value: Value::Variant { name: name.to_owned(), name_span, content } })
     }
 
-    /// Reads `(x)` behind `Some`.
+    /// Reads `(x)` after `Some`.
     fn some(&mut self, start: usize) -> Option<Node> {
         let end = self.at;
         self.skip_space();
@@ -230,7 +230,7 @@ impl Reader<'_> {
             Value::Tuple(mut items) if items.len() == 1 => items.pop(),
             _ if self.errors > errors => None,
             Value::Unit => {
-                let error = self.error(MISSING_VALUE, start, self.at, "`Some()` holds no value");
+                let error = self.error(MISSING_VALUE, start, self.at, "`Some()` is empty");
                 self.report(error);
                 None
             }
@@ -253,7 +253,7 @@ impl Reader<'_> {
         None
     }
 
-    /// Reports `b"…"`, `br"…"` or `b'…'`, and moves behind it.
+    /// Reports `b"…"`, `br"…"` or `b'…'`, and moves past it.
     fn refuse_bytes(&mut self) -> Option<Node> {
         let start = self.at;
         let errors = self.errors;
@@ -264,14 +264,14 @@ impl Reader<'_> {
             _ => drop(self.raw_string()),
         }
         if self.errors == errors {
-            let error = self.error(UNSUPPORTED_SYNTAX, start, self.at, "byte strings are not read");
+            let error = self.error(UNSUPPORTED_SYNTAX, start, self.at, "byte strings are not supported");
             self.report(error.suggest("write a string `\"…\"`, or numbers in a list"));
         }
         None
     }
 }
 
-/// `type="…"` or `schema="…"`, which ron passes over.
+/// `type="…"` or `schema="…"`, which ron skips.
 fn is_note(inner: &str) -> bool {
     ["type=\"", "schema=\""].into_iter().any(|prefix| {
         inner

@@ -1,4 +1,4 @@
-//! The state of a reading: where it stands, what it reported, and the space between tokens.
+//! The state of a reading: its position, what it has reported, and the space between tokens.
 
 use std::sync::Arc;
 
@@ -18,18 +18,19 @@ pub(crate) struct Reader<'a> {
     pub at: usize,
     /// Brackets that are open here, outermost first.
     pub open: Vec<Open>,
-    /// Mistakes that are none of their own if the bracket around them turns out to be unclosed.
+    /// Mistakes that only follow from another one if the bracket around them turns out to be unclosed.
     pub held: Vec<Held>,
     pub out: Vec<Diagnostic>,
     /// How many syntax errors there were, the held ones included.
     pub errors: usize,
-    /// A bracket was unclosed, unopened or too deep: what stands behind the value follows from that.
+    /// A bracket was unclosed, unopened or too deep: text after the value follows from that.
     pub brackets_broken: bool,
     /// Index in `out` of the report that the text ends within brackets.
     pub ended_within: Option<usize>,
-    /// Opening and closing bracket that do not stand under one another.
+    /// An opening bracket and its closing one that is indented differently.
     pub suspect: Option<(usize, usize)>,
-    /// What was held when the suspect was closed: mistakes of their own only if the text does not end within brackets.
+    /// What was held when the suspect was closed: mistakes in their own right only if the text does not end within
+    /// brackets.
     pub suspect_held: Vec<Held>,
     /// No raw string with this many `#` or more ends in the rest of the text.
     pub raw_without_end: usize,
@@ -49,7 +50,7 @@ pub(crate) struct Open {
 /// A held mistake.
 pub(crate) struct Held {
     pub diagnostic: Diagnostic,
-    /// Where the item begins that it is about.
+    /// Where the item concerned begins.
     pub item: usize,
 }
 
@@ -88,12 +89,12 @@ impl<'a> Reader<'a> {
         self.source.place(span(start, end))
     }
 
-    /// A syntax error that is not yet reported.
+    /// A syntax error that has not been reported yet.
     pub fn error(&self, code: Code, start: usize, end: usize, message: impl Into<String>) -> Diagnostic {
         Diagnostic::error(code, self.place(start, end), message)
     }
 
-    /// Reports a syntax error. One too many ends the reading.
+    /// Reports a syntax error. Too many end the reading.
     pub fn report(&mut self, diagnostic: Diagnostic) {
         if self.given_up {
             return;
@@ -101,7 +102,7 @@ impl<'a> Reader<'a> {
         self.errors += 1;
         self.out.push(diagnostic);
         if self.errors >= MOST_ERRORS {
-            let message = format!("{MOST_ERRORS} syntax errors: the rest is not read");
+            let message = format!("after {MOST_ERRORS} syntax errors the rest of the file is not read");
             self.out.push(self.error(TOO_MANY_ERRORS, self.at, self.at, message));
             self.given_up = true;
             self.at = self.bytes.len();
@@ -115,13 +116,13 @@ impl<'a> Reader<'a> {
             Err(comment) => {
                 self.at = self.bytes.len();
                 self.ends_in_comment = true;
-                let error = self.error(UNTERMINATED_COMMENT, comment, comment + 2, "the comment does not end");
-                self.report(error.suggest("end it with `*/`; comments within comments end on their own"));
+                let error = self.error(UNTERMINATED_COMMENT, comment, comment + 2, "this comment is not closed");
+                self.report(error.suggest("close it with `*/`; a comment within a comment needs its own"));
             }
         }
     }
 
-    /// Name and end of the identifier that begins at an offset. A raw one (`r#a-b`) is named without its `r#`.
+    /// Name and end of the identifier that begins at an offset; the name of a raw one (`r#a-b`) omits the `r#`.
     pub fn identifier_at(&self, at: usize) -> Option<(&'a str, usize)> {
         let rest = &self.bytes[at..];
         match *rest.first()? {
@@ -141,7 +142,7 @@ impl<'a> Reader<'a> {
         Some((&self.text[at..end], end))
     }
 
-    /// The end of the characters from an offset on of which something holds.
+    /// The end of the run of characters from an offset on for which `holds` is true.
     pub fn run_end(&self, at: usize, holds: impl Fn(char) -> bool) -> usize {
         let mut end = at;
         loop {
@@ -182,13 +183,13 @@ impl<'a> Reader<'a> {
         format!("`{}`", crate::node::shortened(&self.text[at..self.token_end(at)]))
     }
 
-    /// The end of the text without the space behind it.
+    /// The end of the text without trailing space.
     pub fn last(&self) -> usize {
         self.text.trim_end().len()
     }
 }
 
-/// What belongs to a number, or to a word that was probably meant to be a string.
+/// Whether a character may be part of a number, or of a word that was probably meant to be a string.
 pub(crate) fn is_word(character: char) -> bool {
     is_xid_continue(character) || matches!(character, '.' | '+' | '-' | '$')
 }
@@ -198,7 +199,7 @@ pub(crate) fn span(start: usize, end: usize) -> Span {
     Span { start: start as u32, end: end as u32 }
 }
 
-/// The end of space and comments; an error is the start of a comment that does not end.
+/// The end of space and comments; an error is the start of a comment that is not closed.
 pub(crate) fn space_end(bytes: &[u8], mut at: usize) -> Result<usize, usize> {
     loop {
         match bytes.get(at) {

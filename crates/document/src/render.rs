@@ -7,13 +7,13 @@ use crate::{Diagnostic, Place, Severity, Source, Span};
 
 /// Two places of a source are shown in one piece of it if at most this many lines lie between them.
 const NEAR_LINES: usize = 4;
-/// Of a place that covers more lines, its first line is shown.
+/// Of a place that covers more lines, only the first line is shown.
 const MOST_LINES: usize = 8;
-/// Of a longer line, in bytes, only what lies around the place is shown.
+/// Of a longer line, in bytes, only the surroundings of the place are shown.
 const LONG_LINE: u32 = 240;
 
 /// Each diagnostic as a headline with its code, `file:line:column`, the lines concerned with carets under the places
-/// (the related ones too), and what to do; an empty line behind each. `color` adds the escapes of a terminal.
+/// (the related ones too), and the suggestion; each is followed by an empty line. `color` adds terminal escapes.
 pub fn render_text<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>, color: bool) -> String {
     let renderer = if color { Renderer::styled() } else { Renderer::plain() };
     let mut text = String::new();
@@ -44,7 +44,7 @@ fn report(diagnostic: &Diagnostic) -> Group<'_> {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
     };
-    // What users wrote is part of the message: nothing in it may steer the terminal.
+    // The message quotes what users wrote: nothing in it may control the terminal.
     let title = level.primary_title(normalize_untrusted_str(&diagnostic.message)).id(diagnostic.code.0);
     let mut elements: Vec<Element<'_>> = Vec::new();
     let mut shown = vec![false; diagnostic.related.len()];
@@ -91,7 +91,7 @@ fn lines(source: &Source, span: Span) -> (usize, usize) {
     if last - first >= MOST_LINES { (first, first) } else { (first, last) }
 }
 
-/// Another span lies so near to those marked that they are shown together.
+/// Whether another span is so near to those marked that they are shown together.
 fn fits(source: &Source, marks: &[Mark<'_>], span: Span) -> bool {
     let (first, last) = all_lines(source, marks);
     let (other_first, other_last) = lines(source, span);
@@ -99,7 +99,7 @@ fn fits(source: &Source, marks: &[Mark<'_>], span: Span) -> bool {
     apart <= NEAR_LINES && !is_long(source, first.min(other_first), last.max(other_last))
 }
 
-/// Lines are longer on average than can be shown.
+/// Whether the lines are on average longer than can be shown.
 fn is_long(source: &Source, first: usize, last: usize) -> bool {
     let whole = source.line_span(first, last);
     whole.end - whole.start > LONG_LINE * (last - first + 1) as u32
@@ -121,7 +121,7 @@ fn snippet<'a>(source: &'a Source, marks: &[Mark<'a>]) -> Vec<Element<'a>> {
     vec![snippet.into()]
 }
 
-/// Of long lines, only what lies around the first mark, so that the work does not grow with the length of the line.
+/// Of long lines, only the surroundings of the first mark, so that the work does not grow with the length of the line.
 fn window<'a>(source: &'a Source, marks: &[Mark<'a>]) -> Vec<Element<'a>> {
     let (_, span, _) = marks[0];
     let line = source.line_index(span.start);

@@ -1,4 +1,4 @@
-//! Items between brackets, with commas between them, and how the reading goes on behind a mistake.
+//! Items between brackets, separated by commas, and how reading goes on after a mistake.
 
 use crate::reader::{Held, Open, Reader};
 use crate::{
@@ -14,12 +14,12 @@ impl Reader<'_> {
         self.held.push(Held { diagnostic, item });
     }
 
-    /// Reads the opening bracket, items with commas between them, and the closing bracket. `item` gives `None` where
-    /// it reported a mistake and does not know where it stands.
+    /// Reads the opening bracket, items with commas between them, and the closing bracket. `item` returns `None`
+    /// where it reported a mistake and has lost its position.
     pub fn sequence(&mut self, close: u8, item: &mut dyn FnMut(&mut Self) -> Option<()>) -> Option<()> {
         let start = self.at;
         if self.open.len() >= MAX_DEPTH {
-            let message = format!("brackets stand in brackets more than {MAX_DEPTH} deep");
+            let message = format!("brackets are nested more than {MAX_DEPTH} deep");
             let error = self.error(TOO_DEEP, start, start + 1, message);
             self.brackets_broken = true;
             self.skip_brackets();
@@ -45,7 +45,7 @@ impl Reader<'_> {
         Some(())
     }
 
-    /// Reads what may stand before an item: the closing bracket, or what should not stand there.
+    /// Whether another item follows. Reads the closing bracket where none does, and what should not be there.
     fn goes_on(&mut self, held: usize) -> bool {
         loop {
             self.skip_space();
@@ -77,7 +77,7 @@ impl Reader<'_> {
                     }
                 }
                 Some(b',') => {
-                    let error = self.error(MISSING_VALUE, self.at, self.at + 1, "nothing stands before this comma");
+                    let error = self.error(MISSING_VALUE, self.at, self.at + 1, "there is nothing before this comma");
                     self.at += 1;
                     self.report(error);
                 }
@@ -86,7 +86,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads the comma behind an item, or reports what stands there instead.
+    /// Reads the comma after an item, or reports what is there instead.
     fn comma(&mut self, item: usize) {
         let end = self.at;
         self.skip_space();
@@ -100,7 +100,7 @@ impl Reader<'_> {
                 self.held.push(Held { diagnostic: error, item: here });
             }
             Some(b';') => {
-                let error = self.error(UNEXPECTED_CHARACTER, here, here + 1, "`;` stands where a comma belongs");
+                let error = self.error(UNEXPECTED_CHARACTER, here, here + 1, "expected a comma, found `;`");
                 self.at += 1;
                 self.report(error.suggest("write `,`"));
             }
@@ -128,7 +128,7 @@ impl Reader<'_> {
         self.error(MISSING_COMMA, here, self.token_end(here), message)
     }
 
-    /// A value may begin with this byte.
+    /// Whether a value may begin with this byte.
     pub fn begins_value(&self, byte: u8) -> bool {
         match byte {
             b'(' | b'[' | b'{' | b'"' | b'\'' | b'+' | b'-' | b'.' | b'$' | b'0'..=b'9' => true,
@@ -136,7 +136,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Moves behind the bracket that closes the one that is next, whatever stands between them.
+    /// Moves past the bracket that closes the next one, whatever is between them.
     fn skip_brackets(&mut self) {
         self.at += 1;
         self.skip_to(false, 1);
@@ -147,7 +147,7 @@ impl Reader<'_> {
         self.skip_to(true, 0);
     }
 
-    /// Moves over tokens: to the end of an item, or behind the bracket that leaves no bracket open.
+    /// Moves over tokens: to the end of an item, or past the bracket that leaves no bracket open.
     fn skip_to(&mut self, stop_at_item_end: bool, mut open: usize) {
         while self.at < self.bytes.len() {
             self.skip_space();

@@ -16,7 +16,7 @@ const MOST_BYTES: u64 = 1 << 30;
 pub struct Span {
     /// Offset of the first byte.
     pub start: u32,
-    /// Offset behind the last byte.
+    /// Offset after the last byte.
     pub end: u32,
 }
 
@@ -32,9 +32,9 @@ impl Span {
     }
 }
 
-/// A text with a name: a file that was read, or what stands on the command line.
+/// A text with a name: a file that was read, or an argument of the command line.
 ///
-/// A byte order mark at its start is no part of the text.
+/// A byte order mark at its start is not part of the text.
 pub struct Source {
     name: String,
     text: String,
@@ -58,7 +58,7 @@ impl Source {
     /// Reads a file whole. It must be UTF-8.
     ///
     /// # Errors
-    /// [`MISSING_FILE`] where there is none, [`UNREADABLE_FILE`] where it is a folder, is not UTF-8, is larger than
+    /// [`MISSING_FILE`] where it does not exist, [`UNREADABLE_FILE`] where it is a folder, is not UTF-8, is larger than
     /// 1 GiB, or may not be read. The place names the path as it was given.
     pub fn read(path: &Path) -> Result<Arc<Self>, Diagnostic> {
         let name = path.display().to_string();
@@ -72,7 +72,7 @@ impl Source {
             Ok(data) if data.is_dir() => return Err(unreadable("is a folder, not a file")),
             _ => {}
         }
-        // The length that the system gives is not asked: that of a device is 0.
+        // The system's length is not used: that of a device is 0.
         let mut bytes = Vec::new();
         File::open(path)
             .and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes))
@@ -85,7 +85,9 @@ impl Source {
             Err(error) => {
                 let good = error.utf8_error().valid_up_to();
                 let line = error.as_bytes()[..good].iter().filter(|byte| **byte == b'\n').count() + 1;
-                Err(unreadable(&format!("is not UTF-8 text: byte {good}, in line {line}, is part of no character")))
+                Err(unreadable(&format!(
+                    "is not UTF-8 text: byte {good}, in line {line}, is not part of a valid character"
+                )))
             }
         }
     }

@@ -39,7 +39,7 @@ impl Reader<'_> {
     }
 
     /// A string may hold line breaks. So a missing quote shows late: the string ends where the next one was meant to
-    /// begin. What stands behind that quote gives it away.
+    /// begin. What follows that quote gives it away.
     fn string_end(&self, start: usize) -> End {
         let mut at = start + 1;
         let mut several_lines = false;
@@ -68,7 +68,7 @@ impl Reader<'_> {
         first + line.trim_end_matches([' ', '\t', ',', ')', ']', '}']).len()
     }
 
-    /// What stands at an offset may stand behind a string, a forgotten comma allowed for.
+    /// Whether the text at an offset may follow a string, a forgotten comma allowed for.
     fn may_follow_string(&self, at: usize) -> bool {
         let Ok(at) = space_end(self.bytes, at) else { return true };
         match self.bytes.get(at) {
@@ -85,7 +85,7 @@ impl Reader<'_> {
         let first = self.text[start + 1..].bytes().take_while(|byte| *byte == b'#').count() + start + 1;
         let hashes = first - start - 1;
         if self.bytes.get(first) != Some(&b'"') {
-            let error = self.error(UNTERMINATED_STRING, start, first, "a raw string needs a quote behind its `#`");
+            let error = self.error(UNTERMINATED_STRING, start, first, "a raw string needs a quote after its `#`");
             self.at = first;
             self.report(error);
             return None;
@@ -101,8 +101,8 @@ impl Reader<'_> {
             None => {
                 self.raw_without_end = self.raw_without_end.min(hashes);
                 self.at = self.probable_end(first + 1);
-                let error = self.error(UNTERMINATED_STRING, start, self.at, "the raw string does not end");
-                self.report(error.suggest(format!("end it with `{ending}`")));
+                let error = self.error(UNTERMINATED_STRING, start, self.at, "the raw string is not closed");
+                self.report(error.suggest(format!("close it with `{ending}`")));
                 None
             }
         }
@@ -136,7 +136,7 @@ impl Reader<'_> {
             .then(|| end - rest.trim_start_matches([' ', '\t', '\n', '\r']).len())
     }
 
-    /// Reads the escape whose backslash stands at an offset: its character, and where it ends.
+    /// Reads the escape whose backslash is at an offset; gives its character and its end.
     fn escape(&mut self, at: usize, end: usize, in_string: bool) -> (Option<char>, usize) {
         let rest = &self.text[at + 1..end];
         let kind = rest.chars().next();
@@ -159,7 +159,7 @@ impl Reader<'_> {
             let why = match kind {
                 Some('x') => "`\\x` needs two hexadecimal digits that make a character",
                 Some('u') => "`\\u` needs 1 to 6 hexadecimal digits of a character in braces: `\\u{263a}`",
-                _ => "a backslash begins an escape, and this is none",
+                _ => "unknown escape sequence",
             };
             let error = self.error(BAD_ESCAPE, at, next, why);
             self.report(match kind {

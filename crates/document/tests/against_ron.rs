@@ -411,7 +411,7 @@ fn both_refuse() {
 #[test]
 fn we_refuse_more() {
     for (text, code) in [
-        // A key that stands twice is a mistake, never a choice.
+        // A key that appears twice is a mistake, never a choice.
         ("{\"a\": 1, \"a\": 2}", "duplicate-name"),
         ("(a: 1, a: 2)", "duplicate-name"),
         // Nothing in our files holds bytes or ranges.

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use tyndall_document::{
-    CODES, Code, Decoder, Diagnostics, MISSING_COMMA, MISSING_VALUE, Node, Source, TOO_MANY_ERRORS, UNREADABLE_FILE,
-    fixture, parse,
+    BAD_NAME, CODES, Code, Decoder, Diagnostics, MISSING_COMMA, MISSING_VALUE, Node, Source, TOO_MANY_ERRORS,
+    UNREADABLE_FILE, fixture, parse,
 };
 
 /// Reads a fixture. Its fields are named after the method that decodes them; `read` is a file to be read.
@@ -18,13 +18,15 @@ fn run(source: &Arc<Source>) -> Diagnostics {
         decode(&mut Decoder::new(source, &mut out), &node);
     }
     out.sort();
-    // It stands behind the hundred errors that cause it.
+    // It comes after the hundred errors that cause it.
     let last = out.iter().find(|diagnostic| diagnostic.code == TOO_MANY_ERRORS).cloned();
     last.map_or(out, Diagnostics::from)
 }
 
-const FIELDS: &[&str] =
-    &["read", "bool", "float", "integer", "text", "list", "map", "floats", "fields", "variant", "version", "params"];
+const FIELDS: &[&str] = &[
+    "read", "bool", "float", "integer", "text", "list", "map", "floats", "fields", "variant", "name", "format",
+    "version", "params",
+];
 
 fn decode(decoder: &mut Decoder<'_>, node: &Node) {
     let Some(fields) = decoder.fields(node, "the document", FIELDS) else { return };
@@ -49,6 +51,12 @@ fn decode(decoder: &mut Decoder<'_>, node: &Node) {
                     inner.required(decoder, "name");
                 }
             }
+            "name" => {
+                if let Some(name) = decoder.text(node) {
+                    decoder.check_name(name, node.span, BAD_NAME);
+                }
+            }
+            "format" => decoder.version(node, 2),
             "variant" => drop(decoder.variant(node, "a colour", &["Red", "Green"])),
             _ => {}
         }
@@ -94,7 +102,7 @@ fn the_harness_fails_when_it_should() {
     assert!(fixture::problems(&folder.0, &[MISSING_COMMA], &run, true).is_empty());
     assert_eq!(folder.problems(&[MISSING_COMMA]), "");
     assert!(folder.problems(&[MISSING_COMMA, MISSING_VALUE]).contains("`missing-value` has no fixture"));
-    assert!(folder.problems(&[MISSING_VALUE]).contains("`missing-comma.ron` is named after no code"));
+    assert!(folder.problems(&[MISSING_VALUE]).contains("`missing-comma.ron` is not named after a code"));
     // The same mistake elsewhere.
     folder.write("missing-comma.ron", "(version:  1 params: 2)");
     let differs = folder.problems(&[MISSING_COMMA]);

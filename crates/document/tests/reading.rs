@@ -42,7 +42,7 @@ fn spans_are_those_of_the_text() {
     assert_eq!(source.line_column(entries[0].1.span.start), (2, 23));
 }
 
-/// One mistake, one report, at its place, whatever comes behind it.
+/// One mistake, one report, at its place, whatever comes after it.
 #[test]
 fn one_mistake_is_one_report() {
     const GRAPH: &str = r#"(

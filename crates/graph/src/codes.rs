@@ -1,25 +1,10 @@
 //! Every class of mistake that this crate reports; each has a fixture in `tests/fixtures`.
 
-use tyndall_document::Code;
-
-macro_rules! codes {
-    ($($(#[doc = $doc:literal])+ $name:ident = $text:literal;)+) => {
-        $($(#[doc = $doc])+ pub const $name: Code = Code($text);)+
-
-        /// All of them, in the order of this file.
-        pub const CODES: &[Code] = &[$($name),+];
-    };
-}
+use tyndall_document::codes;
 
 codes! {
-    /// A name does not match `[a-z][a-z0-9_]*`.
-    BAD_NAME = "bad-name";
-    /// The file's `version` is one that this program does not know yet.
-    NEWER_VERSION = "newer-version";
-    /// The file's `version` never existed.
-    BAD_VERSION = "bad-version";
-    /// A size is 0, or more than 32 bits hold.
-    BAD_SIZE = "bad-size";
+    /// Every class of mistake that this crate reports and none below it.
+    CODES:
     /// A file whose picture sets the size of a port holds none.
     BAD_PICTURE = "bad-picture";
     /// The graph has no outputs.
@@ -56,8 +41,6 @@ codes! {
     WRONG_SIZE = "wrong-size";
     /// Passes wait for each other.
     CYCLE = "cycle";
-    /// A value lies outside its parameter's range.
-    OUT_OF_RANGE = "out-of-range";
     /// A word is not one of those to choose from.
     UNKNOWN_CHOICE = "unknown-choice";
     /// `$name` names a parameter that the graph does not have.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
-use tyndall_document::{Diagnostic, Place, Source, Span, near};
+use tyndall_document::{Diagnostic, Place, Source, Span, available};
 
 use crate::catalogue::Kind;
 use crate::codes;
@@ -180,8 +180,8 @@ impl Graph {
         let Some((pass_name, port_name)) = name.split_once('.') else { return self.find_output(name, place) };
         let Some(pass) = self.pass_named(pass_name) else {
             let message = format!("there is no pass named `{pass_name}`");
-            let near = near(pass_name, self.pass_names()).map(|near| format!("did you mean `{near}.{port_name}`?"));
-            return Err(suggest(Diagnostic::error(codes::UNKNOWN_REFERENCE, place, message), near));
+            let problem = Diagnostic::error(codes::UNKNOWN_REFERENCE, place, message);
+            return Err(problem.suggest_near_as(pass_name, self.pass_names(), |near| format!("{near}.{port_name}")));
         };
         let descriptor = self.passes[pass].descriptor();
         match descriptor.port_named(port_name) {
@@ -193,9 +193,9 @@ impl Graph {
             }
             None => {
                 let message = format!("`{}` has no port named `{port_name}`", descriptor.name);
-                let near = near(port_name, descriptor.outputs().map(|port| port.name.as_str()))
-                    .map(|near| format!("did you mean `{pass_name}.{near}`?"));
-                Err(suggest(Diagnostic::error(codes::UNKNOWN_PORT, place, message), near))
+                let ports = descriptor.outputs().map(|port| port.name.as_str());
+                let problem = Diagnostic::error(codes::UNKNOWN_PORT, place, message);
+                Err(problem.suggest_near_as(port_name, ports, |near| format!("{pass_name}.{near}")))
             }
         }
     }
@@ -205,12 +205,10 @@ impl Graph {
             return Ok(*port);
         }
         let message = format!("the graph has no output named `{name}`");
-        let near = near(name, self.outputs.iter().map(|(output, _)| output.as_str()));
-        let suggestion = match near {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("its outputs are {}; `pass.port` names any port", self.output_names()),
-        };
-        Err(Diagnostic::error(codes::UNKNOWN_OUTPUT, place, message).suggest(suggestion))
+        let outputs = self.outputs.iter().map(|(output, _)| output.as_str());
+        let otherwise = "`pass.port` names any port".to_owned();
+        let otherwise = available(outputs.clone()).map_or(otherwise.clone(), |list| format!("{list}; {otherwise}"));
+        Err(Diagnostic::error(codes::UNKNOWN_OUTPUT, place, message).suggest_near_or(name, outputs, otherwise))
     }
 
     /// The parameters that a name means: one for `pass.parameter`, all that use it for a parameter of the graph, none
@@ -243,19 +241,7 @@ impl Graph {
         }
     }
 
-    pub(crate) fn pass_names(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn pass_names(&self) -> impl Iterator<Item = &str> + Clone {
         self.passes.iter().map(|pass| pass.name.as_str())
-    }
-
-    fn output_names(&self) -> String {
-        let names: Vec<String> = self.outputs.iter().map(|(name, _)| format!("`{name}`")).collect();
-        names.join(", ")
-    }
-}
-
-fn suggest(diagnostic: Diagnostic, suggestion: Option<String>) -> Diagnostic {
-    match suggestion {
-        Some(suggestion) => diagnostic.suggest(suggestion),
-        None => diagnostic,
     }
 }

@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all.
 //!
-//! What is written goes to a temporary file in the folder of the target, is flushed to the disk, and takes the
-//! target's name last. So a reader sees the old file or the new one, and a failure leaves the old one as it was.
+//! Data go to a temporary file in the folder of the target, which is flushed to the disk and then renamed to the target.
+//! So a reader sees the old file or the new one, and a failure leaves the old one as it was.
 
 use std::fs::{File, Permissions};
 use std::io::{self, BufWriter, Seek, SeekFrom};
@@ -11,14 +11,13 @@ use tempfile::NamedTempFile;
 
 use crate::{Error, Kind};
 
-/// What the function given to [`write_atomically`] writes to; it can be written and sought.
+/// What the function given to [`write_atomically`] writes to; it can seek.
 pub type Writer<'a> = BufWriter<&'a File>;
 
 /// Writes the file `path` by `write`, whole or not at all.
 ///
-/// Missing parent folders are made. A new file gets the usual permissions, an existing one keeps its own. A
-/// symbolic link keeps pointing at its target, which is replaced. A device or a pipe (`/dev/stdout`) is written to
-/// at the end.
+/// Missing parent folders are created. A new file gets the usual permissions, an existing one keeps its own. A symbolic
+/// link is kept, and its target is replaced. A device or a pipe (`/dev/stdout`) is written to once all data are there.
 ///
 /// # Errors
 /// If the path is a folder or may not be written (the user's fault), if the disk is full, or if `write` fails.
@@ -48,17 +47,17 @@ enum Target {
     Device,
 }
 
-/// What stands at `path` now, links followed.
+/// What is at `path` now, links followed.
 fn target(path: &Path) -> Result<Target, Error> {
     let refused = |what: &str| Err(Error::new(Kind::Usage, path, format!("cannot write: {what}")));
-    // Its name is that of a file wherever the shell has sent it, and must not be replaced there.
+    // The shell may have redirected it to a file, which must not be replaced.
     if path.starts_with("/dev") {
         return Ok(Target::Device);
     }
     match std::fs::metadata(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => match path.file_name() {
             Some(_) => Ok(Target::File { path: path.to_owned(), permissions: None }),
-            None => refused("it is no file name"),
+            None => refused("it is not a file name"),
         },
         Err(error) => Err(Error::io(path, "cannot write", &error)),
         Ok(found) if found.is_dir() => refused("it is a folder"),

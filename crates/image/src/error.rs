@@ -1,4 +1,4 @@
-//! What can go wrong with a file, and whose fault it is.
+//! What can go wrong with a file, and who can correct it.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -12,10 +12,10 @@ pub struct Error {
     message: String,
 }
 
-/// Whose fault an [`Error`] is.
+/// Where the cause of an [`Error`] lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// The path or what is asked for is wrong: an unknown suffix, a folder, a missing or forbidden file.
+    /// The path or the request is wrong: an unknown suffix, a folder, a missing file, one that may not be read.
     Usage,
     /// The content of a file that was read is wrong.
     Input,
@@ -31,17 +31,17 @@ impl Error {
         Self { kind, path: path.to_owned(), message: message.into() }
     }
 
-    /// An error of the file system. `doing` is what was tried, as in "cannot write".
+    /// An error of the file system. `doing` says what was attempted: "cannot write".
     pub(crate) fn io(path: &Path, doing: &str, error: &io::Error) -> Self {
         Self::new(kind_of(error), path, format!("{doing}: {}", plain(error)))
     }
 
-    /// Whose fault it is.
+    /// Where the cause lies.
     pub fn kind(&self) -> Kind {
         self.kind
     }
 
-    /// The file that it is about.
+    /// The file concerned.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -76,7 +76,7 @@ fn kind_of(error: &io::Error) -> Kind {
     }
 }
 
-/// The system's words without the number that Rust appends to them.
+/// The system's message without the number that Rust appends to it.
 fn plain(error: &io::Error) -> String {
     let text = error.to_string();
     let short = text.split(" (os error").next().unwrap_or_default();

@@ -1,6 +1,6 @@
-//! OpenEXR in: R, G, B (A); Y; X, Y (Z); or a single channel of any name, of half, float or whole numbers.
+//! Reading OpenEXR: R, G, B (A); Y; X, Y (Z); or a single channel of any name, of half, float or whole numbers.
 //!
-//! B44 and DWA compression are not read. Sizes are checked against the file's length before anything of that size
+//! B44 and DWA compression are not supported. Sizes are checked against the file's length before anything of that size
 //! is allocated.
 
 use std::io::Cursor;
@@ -20,10 +20,10 @@ use crate::{Image, limits};
 /// Largest side of a tile, pixels: those of today's files have 512 at most.
 const LARGEST_TILE: usize = 8_192;
 
-/// The first layer of the file whose channels are understood.
+/// The first layer of the file whose channels are known.
 pub(crate) fn decode<T: FromExact>(bytes: &[u8]) -> Result<Image<T>, String> {
-    // The reader has assertions of its own about what a file says; one that fails is the file's mistake.
-    catch_unwind(AssertUnwindSafe(|| decode_checked(bytes))).unwrap_or_else(|_| Err("not a sound EXR file".to_owned()))
+    // The reader asserts what it expects of a file; if an assertion fails, the file is at fault.
+    catch_unwind(AssertUnwindSafe(|| decode_checked(bytes))).unwrap_or_else(|_| Err("not a valid EXR file".to_owned()))
 }
 
 fn decode_checked<T: FromExact>(bytes: &[u8]) -> Result<Image<T>, String> {
@@ -34,7 +34,7 @@ fn decode_checked<T: FromExact>(bytes: &[u8]) -> Result<Image<T>, String> {
     }
     let header = &reader.headers()[layer];
     if !is_safe(header.compression) {
-        return Err(format!("EXR files with {} are not read", header.compression));
+        return Err(format!("EXR files with {} are not supported", header.compression));
     }
     let (width, height) = (header.layer_size.width(), header.layer_size.height());
     let data = vec![T::default(); width * height * sources.len()];
@@ -64,7 +64,7 @@ fn is_safe(compression: Compression) -> bool {
     matches!(compression, C::Uncompressed | C::RLE | C::ZIP1 | C::ZIP16 | C::PIZ | C::PXR24)
 }
 
-/// The number of the layer, and which of its channels make the image, in order.
+/// The index of the layer, and those of its channels that make up the image, in order.
 fn choose_layer(headers: &[Header]) -> Result<(usize, Vec<usize>), String> {
     let found = headers.iter().position(|header| !header.deep && sources(header).is_some());
     let layer = found.ok_or_else(|| {
@@ -89,17 +89,17 @@ fn check_size(header: &Header, file_bytes: usize) -> Result<(), String> {
     let size = (header.layer_size.width() as u64, header.layer_size.height() as u64);
     limits::count(size, header.channels.list.len() as u64, 2, file_bytes)?;
     if header.channels.list.iter().any(|channel| channel.sampling.0 != 1 || channel.sampling.1 != 1) {
-        return Err("subsampled channels are not read".to_owned());
+        return Err("subsampled channels are not supported".to_owned());
     }
     match header.blocks {
         BlockDescription::Tiles(tiles) if tiles.tile_size.0.max(tiles.tile_size.1) > LARGEST_TILE => {
-            Err(format!("tiles of {}x{} pixels are not read", tiles.tile_size.0, tiles.tile_size.1))
+            Err(format!("tiles of {}x{} pixels are not supported", tiles.tile_size.0, tiles.tile_size.1))
         }
         _ => Ok(()),
     }
 }
 
-/// Copies the lines of a block into the image; the number of samples that were copied.
+/// Copies the lines of a block into the image. Returns the number of samples copied.
 fn copy_block<T: FromExact>(
     header: &Header,
     block: &UncompressedBlock,
@@ -120,7 +120,7 @@ fn copy_block<T: FromExact>(
 }
 
 fn copy_line<'a, T: FromExact + 'a>(kind: SampleType, bytes: &[u8], row: impl Iterator<Item = &'a mut T>) -> usize {
-    // The reader has turned the bytes to the machine's own order.
+    // The reader has brought the bytes into the machine's order.
     let four = || bytes.as_chunks::<4>().0.iter().copied();
     match kind {
         SampleType::F32 => fill(row, four().map(|bytes| f64::from(f32::from_ne_bytes(bytes)))),
@@ -136,9 +136,9 @@ fn fill<'a, T: FromExact + 'a>(row: impl Iterator<Item = &'a mut T>, samples: im
 fn said(error: exr::error::Error) -> String {
     use exr::error::Error as E;
     match error {
-        E::NotSupported(what) => format!("this kind of EXR file is not read: {what}"),
-        E::Invalid(what) => format!("not a sound EXR file: {what}"),
-        E::Io(error) => format!("not a sound EXR file: {error}"),
-        E::Aborted => "not a sound EXR file".to_owned(),
+        E::NotSupported(what) => format!("this kind of EXR file is not supported: {what}"),
+        E::Invalid(what) => format!("not a valid EXR file: {what}"),
+        E::Io(error) => format!("not a valid EXR file: {error}"),
+        E::Aborted => "not a valid EXR file".to_owned(),
     }
 }

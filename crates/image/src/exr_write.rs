@@ -1,4 +1,4 @@
-//! OpenEXR out: 32-bit or 16-bit float or whole numbers of 32 bits, linear, lossless (ZIP).
+//! Writing OpenEXR: 32-bit or 16-bit float or whole numbers of 32 bits, linear, lossless (ZIP).
 
 use std::io;
 use std::path::Path;
@@ -58,7 +58,7 @@ fn samples<T: Copy + Into<f64>>(
     }
 }
 
-/// Channel names for an image of `channels` channels; the contract's, by meaning.
+/// Channel names for an image of `channels` channels, by meaning.
 fn names(channels: u32, meaning: Meaning) -> &'static [&'static str] {
     match (meaning, channels) {
         (Meaning::Scalar, _) | (_, 1) => &["Y"],

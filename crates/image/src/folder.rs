@@ -7,8 +7,8 @@ use tempfile::TempDir;
 
 use crate::{Error, Kind};
 
-/// A folder that is being filled beside the place where it will stand. Until [`NewFolder::persist`] nobody sees it; where
-/// it is dropped before, nothing is left of it.
+/// A folder that is being filled beside its target. It does not appear before [`NewFolder::persist`]; if it is dropped
+/// before that, nothing is left of it.
 #[derive(Debug)]
 pub struct NewFolder {
     target: PathBuf,
@@ -16,23 +16,23 @@ pub struct NewFolder {
 }
 
 impl NewFolder {
-    /// Begins a folder that will stand at `target`. What stands there may be an empty folder, or one of which `may_replace`
-    /// says that nothing is lost with it.
+    /// Begins a folder that will appear at `target`. There may be an empty folder there already, or one that `may_replace`
+    /// allows to be replaced.
     ///
     /// # Errors
-    /// If something else stands there, or nothing may be written beside it.
+    /// If something else is there, or nothing may be written beside it.
     pub fn begin(target: &Path, may_replace: impl Fn(&Path) -> bool) -> Result<Self, Error> {
         let failed = |error: io::Error| Error::io(target, "cannot write", &error);
         let refused = |why: &str| Err(Error::new(Kind::Usage, target, format!("cannot write: {why}")));
         if target.file_name().is_none() {
-            return refused("it is no name of a folder; name one to be made, out/report say");
+            return refused("it is not the name of a folder; name one to be created, such as out/report");
         }
         match std::fs::read_dir(target).map(|entries| entries.count() > 0) {
             Ok(true) if !may_replace(target) => {
-                return refused("the folder holds other files; name one that is empty, or that is not there yet");
+                return refused("the folder holds other files; name one that is empty or does not exist yet");
             }
             Err(error) if error.kind() == io::ErrorKind::NotADirectory => {
-                return refused("it is a file, and no folder");
+                return refused("it is a file, not a folder");
             }
             Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(failed(error)),
             _ => {}

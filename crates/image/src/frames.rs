@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-/// Fewest `#` in a row that stand for a number: fewer are letters of somebody's name for a folder.
+/// Fewest `#` in a row that are replaced by a number: fewer may be part of somebody's file name.
 const SHORTEST: usize = 4;
 
 /// The file of one frame: each `####` (or longer run of `#`) of the path is replaced by the frame's number, padded
-/// with zeros to the length of the run. A larger number is written whole. Other paths, and those that are not
-/// UTF-8, stay.
+/// with zeros to the length of the run. A larger number is written in full. Other paths, and those that are not UTF-8,
+/// are not changed.
 pub fn frame_path(pattern: &Path, frame: u32) -> PathBuf {
     let Some(mut rest) = pattern.to_str() else { return pattern.to_owned() };
     let mut path = String::new();
@@ -25,7 +25,7 @@ pub fn has_frame_number(pattern: &Path) -> bool {
     pattern.to_str().is_some_and(|text| run(text).is_some())
 }
 
-/// Where the first long enough run of `#` stands.
+/// Start and end of the first run of `#` that is long enough.
 fn run(text: &str) -> Option<(usize, usize)> {
     let start = text.find(&"#".repeat(SHORTEST))?;
     let length = text[start..].bytes().take_while(|&byte| byte == b'#').count();

@@ -1,4 +1,4 @@
-//! Radiance RGBE: three mantissas of 8 bits with a common exponent; linear, without alpha, NaN or negative numbers.
+//! Radiance RGBE: three mantissas of 8 bits with a common exponent; linear, no alpha, no NaN, no negative numbers.
 
 use std::io::{Cursor, Write};
 use std::path::Path;
@@ -49,7 +49,7 @@ fn rgbe(color: [f32; 3]) -> [u8; 4] {
 
 /// The colours of a `.hdr` file, three channels.
 pub(crate) fn decode(bytes: &[u8]) -> Result<Image, String> {
-    let said = |error: image::ImageError| format!("not a sound HDR file: {error}");
+    let said = |error: image::ImageError| format!("not a valid HDR file: {error}");
     let decoder = HdrDecoder::new(Cursor::new(bytes)).map_err(said)?;
     let (width, height) = decoder.dimensions();
     limits::count((u64::from(width), u64::from(height)), 3, 4, bytes.len())?;
@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_format_has_not_is_defined() {
+    fn values_that_the_format_lacks_are_replaced() {
         assert_eq!(rgbe([f32::NAN, -1.0, f32::NEG_INFINITY]), [0, 0, 0, 0]);
         assert_eq!(rgbe([f32::INFINITY, 0.0, 0.0]), [255, 0, 0, 255]);
         assert_eq!(rgbe([1e-40, 0.0, 0.0]), [0; 4]);

@@ -84,7 +84,7 @@ impl Sample for u32 {
     const PRECISION: Precision = Precision::Whole;
 }
 
-/// What the channels of an image mean; it decides their names in a file and whether they are encoded for the eye.
+/// What the channels of an image mean, which decides their names in a file and whether they are encoded as sRGB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Meaning {
     /// Linear colour, with or without alpha. In `.exr` R, G, B, A (alpha 1 where the image has none).
@@ -93,10 +93,10 @@ pub enum Meaning {
     Scalar,
     /// A direction or position: the first three channels. In `.exr` X, Y, Z.
     Vector,
-    /// Numbers of the pass's own: 1 channel is Y, 2 are X, Y, 3 are X, Y, Z and 4 are R, G, B, A in `.exr`.
+    /// Numbers with a meaning of their own: 1 channel is Y, 2 are X, Y, 3 are X, Y, Z and 4 are R, G, B, A in `.exr`.
     Data,
-    /// Colour that is already encoded as sRGB, for a screen. `.png` takes it as it is, `.exr` and `.hdr` get it
-    /// linear.
+    /// Colour that is already encoded as sRGB, for a screen. It is written to `.png` as it is, and made linear for `.exr`
+    /// and `.hdr`.
     Display,
 }
 
@@ -176,14 +176,15 @@ impl<T: Copy> Image<T> {
         (1..=4).contains(&self.channels) && self.pixel_count() * self.channels as usize == self.data.len()
     }
 
-    /// That the image has pixels, and as many numbers as its size says.
+    /// Checks that the image has pixels, and as many numbers as its size says.
     pub(crate) fn check(&self, path: &Path) -> Result<(), Error> {
         if self.fits() && !self.data.is_empty() {
             return Ok(());
         }
         let Self { width, height, layers, channels, .. } = self;
         let count = self.data.len();
-        let message = format!("an image of {width}x{height}x{layers} with {channels} channels and {count} numbers");
+        let message =
+            format!("an image of {width}x{height}x{layers} with {channels} channels cannot hold {count} numbers");
         Err(Error::new(Kind::Usage, path, message))
     }
 }

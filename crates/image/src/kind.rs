@@ -1,4 +1,4 @@
-//! Which format a path asks for.
+//! The format that a path asks for.
 
 use std::path::Path;
 
@@ -41,7 +41,7 @@ pub fn supported(path: &Path) -> Result<FileKind, Error> {
     let found = suffix.as_deref().and_then(|suffix| FileKind::ALL.into_iter().find(|kind| kind.suffix() == suffix));
     found.ok_or_else(|| {
         let what = suffix.map_or("no suffix".to_owned(), |suffix| format!("unknown suffix `.{suffix}`"));
-        Error::new(Kind::Usage, path, format!("{what}; known are `.exr`, `.png`, `.hdr` and `.npy`"))
+        Error::new(Kind::Usage, path, format!("{what}; available: `.exr`, `.png`, `.hdr`, `.npy`"))
     })
 }
 
@@ -53,7 +53,7 @@ mod tests {
     fn suffixes_are_known_in_any_case_and_others_are_listed() {
         assert_eq!(supported(Path::new("a/b.EXR")).unwrap(), FileKind::Exr);
         let text = supported(Path::new("a.tiff")).unwrap_err().to_string();
-        assert_eq!(text, "a.tiff: unknown suffix `.tiff`; known are `.exr`, `.png`, `.hdr` and `.npy`");
+        assert_eq!(text, "a.tiff: unknown suffix `.tiff`; available: `.exr`, `.png`, `.hdr`, `.npy`");
         for kind in FileKind::ALL {
             assert!(text.contains(kind.suffix()));
         }

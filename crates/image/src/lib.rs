@@ -1,4 +1,4 @@
-//! Images in memory and in files, and numbers that compare them.
+//! Images in memory and in files, and metrics that compare them.
 //!
 //! In memory an image is linear `f32` ([`Image`]), or of whole numbers (`Image<u32>`); what its channels mean
 //! ([`Meaning`]) decides how a file names and encodes them. [`write()`] and [`read()`] choose the format by the suffix:
@@ -42,10 +42,10 @@ use image::FromExact;
 
 /// Writes `image` to `path`, in the format of the path's suffix, whole or not at all.
 ///
-/// Missing parent folders are made. What the channels mean decides their names and encoding: see [`Meaning`].
+/// Missing parent folders are created. The meaning of the channels decides their names and encoding: see [`Meaning`].
 ///
 /// # Errors
-/// An unknown suffix, an image whose `data` does not fit its size, more than one layer in a format that has none
+/// An unknown suffix, an image whose `data` does not fit its size, more than one layer in a format that has no layers
 /// (all but `.npy`), and whatever the file system refuses.
 pub fn write<T: Sample>(path: &Path, image: &Image<T>, meaning: Meaning) -> Result<(), Error> {
     let kind = supported(path)?;
@@ -88,12 +88,12 @@ pub fn write_exr(path: &Path, image: &Image<f64>, meaning: Meaning, precision: P
 
 /// Reads the image at `path`, in the format of the path's suffix, as linear numbers.
 ///
-/// `.png` is taken as sRGB (alpha as linear); the others are taken as they stand. An `.npy` file must have the
+/// `.png` is read as sRGB (alpha as linear), the others as they are. An `.npy` file must have the
 /// shape (height, width), (height, width, channels) or (layers, height, width, channels), with 1 to 4 channels;
 /// [`read_array`] takes any.
 ///
 /// # Errors
-/// An unknown suffix, a file that cannot be read, and content that is broken, truncated or larger than is taken.
+/// An unknown suffix, a file that cannot be read, and content that is broken, truncated or too large.
 pub fn read(path: &Path) -> Result<Image, Error> {
     decode(path, supported(path)?, &limits::read_file(path)?)
 }
@@ -109,7 +109,7 @@ pub fn read_exact(path: &Path) -> Result<Image<f64>, Error> {
 /// Decodes `bytes` as a file of `kind`; `path` only names it in errors.
 ///
 /// # Errors
-/// Content that is broken, truncated or larger than is taken.
+/// Content that is broken, truncated or too large.
 pub fn decode(path: &Path, kind: FileKind, bytes: &[u8]) -> Result<Image, Error> {
     decode_as(path, kind, bytes)
 }

@@ -1,4 +1,4 @@
-//! How much of a file is believed before it is proved.
+//! Limits on what a file may claim about itself before its content is checked.
 
 use std::fs::File;
 use std::io::Read;
@@ -15,8 +15,7 @@ const LARGEST_SIDE: u64 = 32_768;
 /// Most numbers of one image: 8192 × 8192 of four channels, 1 GiB.
 const MOST_NUMBERS: u64 = 1 << 28;
 
-/// Largest factor by which a file is taken to unpack. Deflate reaches 1032:1, and no other scheme of these formats
-/// more.
+/// Largest factor by which a file may unpack. Deflate reaches 1032:1, and no other scheme of these formats exceeds it.
 const LARGEST_EXPANSION: u64 = 2_048;
 
 /// The whole of the file at `path`.
@@ -24,11 +23,15 @@ pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, Error> {
     let failed = |error: &std::io::Error| Error::io(path, "cannot read", error);
     let metadata = std::fs::metadata(path).map_err(|error| failed(&error))?;
     if !metadata.is_file() {
-        let what = if metadata.is_dir() { "a folder" } else { "no regular file" };
+        let what = if metadata.is_dir() { "a folder" } else { "not a regular file" };
         return Err(Error::new(Kind::Usage, path, format!("cannot read: it is {what}")));
     }
     if metadata.len() > LARGEST_FILE {
-        return Err(Error::new(Kind::Input, path, format!("{} bytes are more than are read", metadata.len())));
+        return Err(Error::new(
+            Kind::Input,
+            path,
+            format!("the file is too large: {} bytes, at most {LARGEST_FILE} are read", metadata.len()),
+        ));
     }
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(|error| failed(&error))?;
@@ -36,20 +39,22 @@ pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, Error> {
     Ok(bytes)
 }
 
-/// The number of numbers in a picture of this size, if a file of `file_bytes` bytes can hold it.
+/// How many numbers a picture of this size holds, if a file of `file_bytes` bytes can contain it.
 ///
 /// `bytes_each` is the size of one number in the file, unpacked.
 pub(crate) fn count(size: (u64, u64), channels: u64, bytes_each: u64, file_bytes: usize) -> Result<usize, String> {
     let (width, height) = size;
     if width == 0 || height == 0 || channels == 0 {
-        return Err(format!("a picture of {width}x{height} pixels has none"));
+        return Err(format!("a picture of {width}x{height} pixels and {channels} channels is empty"));
     }
     if width > LARGEST_SIDE || height > LARGEST_SIDE {
-        return Err(format!("{width}x{height} pixels are more than {LARGEST_SIDE} on a side"));
+        return Err(format!("{width}x{height} pixels are too many: at most {LARGEST_SIDE} on a side"));
     }
     let count = width * height * channels;
     if count > MOST_NUMBERS {
-        return Err(format!("{width}x{height} pixels of {channels} channels are too many"));
+        return Err(format!(
+            "{width}x{height} pixels of {channels} channels are too many: at most {MOST_NUMBERS} numbers"
+        ));
     }
     if count * bytes_each > (file_bytes as u64).saturating_mul(LARGEST_EXPANSION) {
         return Err(format!("{width}x{height} pixels cannot come from a file of {file_bytes} bytes; it is damaged"));
@@ -67,7 +72,7 @@ mod tests {
         assert!(count((640, 480), 4, 4, 1_000).unwrap_err().contains("damaged"));
         assert!(count((u64::from(u32::MAX), 1), 4, 4, usize::MAX).unwrap_err().contains("on a side"));
         assert!(count((32_000, 32_000), 4, 4, usize::MAX).unwrap_err().contains("too many"));
-        assert!(count((0, 3), 4, 4, 9).unwrap_err().contains("has none"));
+        assert!(count((0, 3), 4, 4, 9).unwrap_err().contains("is empty"));
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! Numbers that say how far an image is from a reference.
 //!
-//! All work on the plain numbers of the images, every channel of every pixel by itself, in double precision.
+//! All work on the plain numbers of the images, each channel of each pixel by itself, in double precision.
 //! Numbers that are equal differ by 0, equal infinities too; NaN, and an infinity against anything else, differ by
 //! infinity. So an image with NaN in it never passes, whatever the tolerance.
-//! Images of different size or channels, and selections without a pixel, are errors: nothing passes by being empty.
+//! Images of different sizes or channels, and selections without a pixel, are errors: nothing passes by being empty.
 
 use crate::Image;
 
@@ -24,7 +24,7 @@ pub struct Absolute {
 }
 
 impl Absolute {
-    /// The part of the numbers that differ by more than the tolerance, 0 to 1.
+    /// The fraction of the numbers that differ by more than the tolerance, 0 to 1.
     pub fn failing_fraction(&self) -> f64 {
         self.failing as f64 / self.count as f64
     }
@@ -74,7 +74,7 @@ pub fn differing_bits<T: Copy + Into<f64>>(image: &Image<T>, reference: &Image<T
 
 /// Root of the mean squared difference over the root of the mean square of the reference: √(Σ(a−b)² / Σb²).
 ///
-/// Infinities of the reference that the image has too are left out of both sums. 0 where all is equal, and infinity
+/// Infinities of the reference that the image has too are left out of both sums. 0 where the images are equal, infinity
 /// where the reference is black and the image is not.
 ///
 /// # Errors
@@ -90,8 +90,8 @@ pub fn relative_rmse<T: Copy + Into<f64>>(image: &Image<T>, reference: &Image<T>
 
 /// Percentiles of |a−b| / max(|b|, `floor`).
 ///
-/// `floor` (> 0, in the unit of the images) keeps numbers that are dark beyond interest from deciding; `keep`, one
-/// per pixel in the order of the data, selects the pixels (all without it).
+/// `floor` (> 0, in the unit of the images) keeps very dark pixels from dominating; `keep`, one per pixel in the order of
+/// the data, selects the pixels (without it, all).
 ///
 /// # Errors
 /// If the images are of different shape, `keep` has another number of pixels, or no pixel is left.
@@ -102,7 +102,7 @@ pub fn relative_errors<T: Copy + Into<f64>>(
     keep: Option<&[bool]>,
 ) -> Result<Percentiles, Incomparable> {
     if keep.is_some_and(|keep| keep.len() != image.pixel_count()) {
-        return Err(Incomparable("the selection has another number of pixels than the image".to_owned()));
+        return Err(Incomparable("the selection and the image differ in their numbers of pixels".to_owned()));
     }
     let channels = image.channels.max(1) as usize;
     let kept = |index: usize| keep.is_none_or(|keep| keep[index / channels]);
@@ -111,7 +111,7 @@ pub fn relative_errors<T: Copy + Into<f64>>(
     percentiles(&mut errors).ok_or_else(|| Incomparable("no pixel is left to compare".to_owned()))
 }
 
-/// Percentiles of any errors (NaN counts as the largest), or `None` of none. Sorts them.
+/// Percentiles of any errors (NaN counts as the largest); `None` if there are none. Sorts them.
 pub fn percentiles(errors: &mut [f64]) -> Option<Percentiles> {
     errors.sort_by(f64::total_cmp);
     let count = errors.len();
@@ -120,7 +120,7 @@ pub fn percentiles(errors: &mut [f64]) -> Option<Percentiles> {
     Some(Percentiles { p50: rank(0.5)?, p95: rank(0.95)?, p99: rank(0.99)?, max: rank(1.0)?, count })
 }
 
-/// The middle value, or the mean of the two in the middle; `None` of none. Sorts them.
+/// The median: the middle value, or the mean of the two in the middle; `None` if there are none. Sorts them.
 pub fn median(values: &mut [f64]) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     let middle = values.len() / 2;
@@ -133,7 +133,7 @@ pub fn median(values: &mut [f64]) -> Option<f64> {
 
 /// Sum of the image over the sum of the reference: 1 where they agree in total energy.
 ///
-/// Infinities that both have are left out; other numbers that are not finite give infinity. Two black images give 1.
+/// Infinities that both have are left out; other non-finite numbers give infinity. Two black images give 1.
 ///
 /// # Errors
 /// If the images are of different shape.
@@ -171,7 +171,7 @@ fn pairs<'a, T: Copy + Into<f64>>(
     Ok(image.data.iter().zip(&reference.data).map(|(&a, &b)| (a.into(), b.into())))
 }
 
-/// Nothing where two images have as many texels, layers and channels, and any at all.
+/// Checks that two images have the same size, layers and channels, and are not empty.
 ///
 /// # Errors
 /// If they are of different shape, or empty.

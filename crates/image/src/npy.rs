@@ -71,7 +71,7 @@ pub(crate) fn decode_image<T: FromExact>(bytes: &[u8]) -> Result<Image<T>, Strin
         [height, width] => (1, height, width, 1),
         [height, width, channels @ 1..=4] => (1, height, width, channels),
         [layers, height, width, channels @ 1..=4] => (layers, height, width, channels),
-        _ => return Err(format!("an array of {shape:?} is no image: wanted is height, width, and 1 to 4 channels")),
+        _ => return Err(format!("an array of {shape:?} is not an image: expected height, width, and 1 to 4 channels")),
     };
     if data.is_empty() {
         return Err(format!("an array of {shape:?} has no pixels"));
@@ -99,10 +99,10 @@ fn header(number: &str, shape: &[usize]) -> Vec<u8> {
 }
 
 fn decode<T: FromExact>(bytes: &[u8]) -> Result<Array<T>, String> {
-    let (text, body) = split(bytes).ok_or("not a sound NumPy file: its header is damaged")?;
-    let bad = |what: &str| format!("not a sound NumPy file: {what}");
+    let (text, body) = split(bytes).ok_or("not a valid NumPy file: its header is damaged")?;
+    let bad = |what: &str| format!("not a valid NumPy file: {what}");
     if entry(text, "fortran_order").is_none_or(|order| !order.starts_with("False")) {
-        return Err("arrays in Fortran order are not read".to_owned());
+        return Err("arrays in Fortran order are not supported".to_owned());
     }
     let shape = entry(text, "shape").and_then(shape_of).ok_or_else(|| bad("it has no shape"))?;
     let descr = entry(text, "descr").and_then(|entry| entry.strip_prefix('\'')?.split('\'').next());
@@ -110,7 +110,7 @@ fn decode<T: FromExact>(bytes: &[u8]) -> Result<Array<T>, String> {
     let count = shape.iter().try_fold(1usize, |product, &length| product.checked_mul(length));
     let wanted = count.and_then(|count| count.checked_mul(size)).ok_or_else(|| bad("its shape is too large"))?;
     let numbers = body.get(..wanted).ok_or_else(|| {
-        format!("not a sound NumPy file: an array of {shape:?} takes {wanted} bytes and {} are there", body.len())
+        format!("not a valid NumPy file: an array of {shape:?} takes {wanted} bytes, but there are {}", body.len())
     })?;
     Ok(Array { shape, data: numbers.chunks_exact(size).map(convert).map(T::from_exact).collect() })
 }
@@ -155,7 +155,7 @@ fn number_type(descr: &str) -> Result<(usize, Convert), String> {
         "|u1" | "|b1" => (1, |bytes| f64::from(read::<1>(bytes)[0])),
         "<u4" => (4, |bytes| f64::from(u32::from_le_bytes(read(bytes)))),
         "<i4" => (4, |bytes| f64::from(i32::from_le_bytes(read(bytes)))),
-        _ => return Err(format!("numbers of type `{descr}` are not read; `<f4` is")),
+        _ => return Err(format!("numbers of type `{descr}` are not supported; `<f4` is")),
     })
 }
 
@@ -187,7 +187,7 @@ mod tests {
         assert_eq!(with("(4,)").unwrap().data, [0.0; 4]);
         assert_eq!(with("(2, 2)").unwrap().shape, [2, 2]);
         assert_eq!(with("()").unwrap().data.len(), 1);
-        assert!(with("(5,)").unwrap_err().contains("takes 20 bytes and 16 are there"));
+        assert!(with("(5,)").unwrap_err().contains("takes 20 bytes, but there are 16"));
         assert!(with("(18446744073709551615, 2)").unwrap_err().contains("too large"));
         assert!(with("(0, 18446744073709551615)").unwrap().data.is_empty());
         assert!(with("(-1,)").is_err());

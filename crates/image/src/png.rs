@@ -1,4 +1,4 @@
-//! PNG: 8-bit sRGB out, 8- or 16-bit sRGB in.
+//! PNG: writes 8-bit sRGB, reads 8- or 16-bit sRGB.
 
 use std::io::{self, Cursor};
 use std::path::Path;
@@ -9,8 +9,8 @@ use image::{ColorType, DynamicImage, ExtendedColorType, ImageDecoder, ImageEncod
 use crate::srgb::byte;
 use crate::{Error, Image, Meaning, limits, linear_from_srgb, srgb_from_linear, write_atomically};
 
-/// Writes the first layer: grey for a scalar, else RGB or RGBA. Numbers are clamped to 0..1, NaN is 0; all but
-/// [`Meaning::Display`] is encoded as sRGB, alpha never.
+/// Writes the first layer: grey for a scalar, else RGB or RGBA. Numbers are clamped to 0..1, NaN becomes 0; everything
+/// but [`Meaning::Display`] is encoded as sRGB, except alpha.
 pub(crate) fn write(path: &Path, image: &Image, meaning: Meaning) -> Result<(), Error> {
     write_atomically(path, |writer| write_to(writer, image, meaning))
 }
@@ -40,7 +40,7 @@ fn encode(image: &Image, meaning: Meaning) -> (ExtendedColorType, Vec<u8>) {
 
 /// The linear numbers of a `.png` file: 1 channel for grey, else 3 or 4.
 pub(crate) fn decode(bytes: &[u8]) -> Result<Image, String> {
-    let said = |error: image::ImageError| format!("not a sound PNG file: {error}");
+    let said = |error: image::ImageError| format!("not a valid PNG file: {error}");
     let decoder = PngDecoder::new(Cursor::new(bytes)).map_err(said)?;
     let (width, height) = decoder.dimensions();
     let color = decoder.color_type();

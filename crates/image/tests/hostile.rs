@@ -75,7 +75,7 @@ fn compressions_whose_unpackers_fail_on_hostile_data_are_refused() {
     for kind in [C::B44, C::B44A, C::DWAA(None), C::DWAB(None)] {
         let [sound, _] = foreign_exr(kind);
         let error = decode(Path::new("a.exr"), FileKind::Exr, &sound).unwrap_err();
-        assert_eq!(error.to_string(), format!("a.exr: EXR files with {kind} are not read"));
+        assert_eq!(error.to_string(), format!("a.exr: EXR files with {kind} are not supported"));
     }
 }
 
@@ -151,11 +151,11 @@ fn errors_name_the_file() {
 #[test]
 fn files_of_another_kind_say_what_they_are() {
     let error = decode(Path::new("a.exr"), FileKind::Exr, &sound(FileKind::Png)).unwrap_err();
-    assert!(error.to_string().contains("not a sound EXR file"), "{error}");
+    assert!(error.to_string().contains("not a valid EXR file"), "{error}");
     let big_endian = b"\x93NUMPY\x01\x00\x36\x00{'descr': '>f4', 'fortran_order': False, 'shape': (1,)}";
     let mut bytes = big_endian.to_vec();
     bytes.resize(10 + 0x36, b' ');
     bytes.extend([0; 4]);
     let error = decode(Path::new("a.npy"), FileKind::Npy, &bytes).unwrap_err();
-    assert_eq!(error.to_string(), "a.npy: numbers of type `>f4` are not read; `<f4` is");
+    assert_eq!(error.to_string(), "a.npy: numbers of type `>f4` are not supported; `<f4` is");
 }

@@ -186,7 +186,7 @@ fn layers_and_buffers_go_to_npy_only() {
     assert_eq!(read_array(&path).unwrap().shape, [24]);
     assert_eq!(read_array(&path).unwrap().data, cube.data);
     assert!(write_array(&path, &[23], &cube.data).is_err());
-    assert!(read(&path).unwrap_err().to_string().contains("is no image"));
+    assert!(read(&path).unwrap_err().to_string().contains("is not an image"));
 }
 
 #[test]

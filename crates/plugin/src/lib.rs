@@ -8,7 +8,7 @@
 //! Both declare passes by the same descriptor and go through the same checks: [`Registry::new`] links every shader and
 //! holds it against what is declared.
 
-mod codes;
+pub mod codes;
 mod dispatch;
 mod folder;
 mod limits;

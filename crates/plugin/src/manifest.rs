@@ -3,9 +3,9 @@
 use std::fmt;
 use std::sync::Arc;
 
-use tyndall_document::{Decoder, Diagnostic, Diagnostics, Node, Source, Span, Value, parse};
+use tyndall_document::{BAD_VERSION, Decoder, Diagnostic, Diagnostics, Node, Source, Span, Value, parse};
 
-use crate::codes::{BAD_PLUGIN_NAME, BAD_VERSION};
+use crate::codes::BAD_PLUGIN_NAME;
 use crate::dispatch::Over;
 use crate::limits::{self, Limit};
 use crate::ports::arguments;
@@ -85,18 +85,7 @@ pub(crate) fn read(source: &Arc<Source>, out: &mut Diagnostics) -> Option<Manife
 
 fn name(decoder: &mut Decoder<'_>, node: &Node) -> Option<String> {
     let text = decoder.text(node)?;
-    if is_name(text) {
-        return Some(text.to_owned());
-    }
-    let place = decoder.place(node.span);
-    let problem = Diagnostic::error(BAD_PLUGIN_NAME, place, format!("{text:?} cannot be a name"));
-    decoder.report(problem.suggest("a name is lower-case letters, digits and `_`, and begins with a letter"));
-    None
-}
-
-fn is_name(text: &str) -> bool {
-    text.starts_with(|c: char| c.is_ascii_lowercase())
-        && text.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
+    decoder.check_name(text, node.span, BAD_PLUGIN_NAME).then(|| text.to_owned())
 }
 
 fn version(decoder: &mut Decoder<'_>, node: &Node) -> Option<Version> {
@@ -116,12 +105,7 @@ fn pass(decoder: &mut Decoder<'_>, entry: Entry) -> Option<ManifestPass> {
     let text = |decoder: &mut Decoder<'_>, name: &str| {
         fields.get(name).and_then(|node| decoder.text(node)).unwrap_or_default().to_owned()
     };
-    let valid = is_name(&entry.name);
-    if !valid {
-        let place = decoder.place(entry.name_span);
-        let problem = Diagnostic::error(BAD_PLUGIN_NAME, place, format!("{:?} cannot be a name", entry.name));
-        decoder.report(problem.suggest("a name is lower-case letters, digits and `_`, and begins with a letter"));
-    }
+    let valid = decoder.check_name(&entry.name, entry.name_span, BAD_PLUGIN_NAME);
     let about = fields.required(decoder, "about").and_then(|node| decoder.text(node)).map(str::to_owned);
     let shader = fields.required(decoder, "shader");
     let shader_span = shader.map_or(entry.value.span, |node| node.span);

@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use tyndall_document::{Decoder, Diagnostic, Diagnostics, Node, Source, Value, near};
+use tyndall_document::{BAD_SIZE, Decoder, Diagnostic, Diagnostics, Node, Source, Value};
 use tyndall_graph::descriptor::{
     Class, Disabled, Extent, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role, SizeRule,
 };
 use tyndall_shader::{Linked, Param, ParamKind, ReflectedPort, derive_port};
 
-use crate::codes::{BAD_PARAM, BAD_PORT, BAD_SIZE};
+use crate::codes::{BAD_PARAM, BAD_PORT};
 use crate::manifest::{Entry, ManifestPass};
 use crate::presets::{preset_param, presets};
 
@@ -59,10 +59,8 @@ fn port(decoder: &mut Decoder<'_>, entry: &Entry, linked: &Linked) -> Option<Por
         let names = linked.resources.iter().map(|resource| resource.name.as_str());
         let message = format!("the shader has no variable `{}` for this port", entry.name);
         let problem = Diagnostic::error(BAD_PORT, decoder.place(entry.name_span), message);
-        decoder.report(match near(&entry.name, names) {
-            Some(name) => problem.suggest(format!("did you mean `{name}`?")),
-            None => problem.suggest(format!("declare `var {}: …;` in the shader", entry.name)),
-        });
+        let otherwise = format!("declare `var {}: …;` in the shader", entry.name);
+        decoder.report(problem.suggest_near_or(&entry.name, names, otherwise));
         return None;
     };
     let reflected = match derive_port(resource) {
@@ -203,10 +201,9 @@ fn param(decoder: &mut Decoder<'_>, entry: &Entry, linked: &Linked) -> Option<Pa
     let Some(reflected) = reflected else {
         let message = format!("the shader has no parameter `{}`", entry.name);
         let problem = Diagnostic::error(BAD_PARAM, decoder.place(entry.name_span), message);
-        decoder.report(match near(&entry.name, linked.params.iter().map(|param| param.name.as_str())) {
-            Some(name) => problem.suggest(format!("did you mean `{name}`?")),
-            None => problem.suggest("parameters are the members of `Params`, and `override`s"),
-        });
+        let names = linked.params.iter().map(|param| param.name.as_str());
+        let otherwise = "parameters are the members of `Params`, and `override`s";
+        decoder.report(problem.suggest_near_or(&entry.name, names, otherwise));
         return None;
     };
     let about = fields.required(decoder, "about").and_then(|node| decoder.text(node)).unwrap_or_default().to_owned();
@@ -224,10 +221,8 @@ fn needed_port(decoder: &mut Decoder<'_>, node: &Node, linked: &Linked) {
     if linked.resource(name).is_none() {
         let message = format!("the shader has no variable `{name}` that the switch could need");
         let problem = Diagnostic::error(BAD_PARAM, decoder.place(node.span), message);
-        decoder.report(match near(name, linked.resources.iter().map(|resource| resource.name.as_str())) {
-            Some(name) => problem.suggest(format!("did you mean `{name}`?")),
-            None => problem.suggest("`needs` names an optional input of the pass"),
-        });
+        let names = linked.resources.iter().map(|resource| resource.name.as_str());
+        decoder.report(problem.suggest_near_or(name, names, "`needs` names an optional input of the pass"));
     }
 }
 

@@ -7,7 +7,7 @@
 //! }
 //! ```
 
-use tyndall_document::{Decoder, Diagnostic, Node, Span, near};
+use tyndall_document::{Decoder, Diagnostic, Node, Span};
 use tyndall_graph::descriptor::{PRESET, ParamDescriptor, ParamValue, Preset};
 
 use crate::codes::BAD_PARAM;
@@ -51,10 +51,7 @@ fn value(decoder: &mut Decoder<'_>, node: &Node, param: &ParamDescriptor) -> Opt
 fn unknown(decoder: &mut Decoder<'_>, name: &str, span: Span, params: &[ParamDescriptor]) {
     let message = format!("the pass has no parameter `{name}` that a preset could give");
     let problem = Diagnostic::error(BAD_PARAM, decoder.place(span), message);
-    decoder.report(match near(name, params.iter().map(|param| param.name.as_str())) {
-        Some(name) => problem.suggest(format!("did you mean `{name}`?")),
-        None => problem.suggest("a preset gives values of the pass's own `params`"),
-    });
+    decoder.report(problem.suggest_near(name, params.iter().map(|param| param.name.as_str())));
 }
 
 /// The parameter that chooses one of them; the first is the default.

@@ -250,11 +250,7 @@ impl Builder<'_> {
             let Some(source) = folder.file(file) else {
                 let message = format!("the plugin's folder holds no `{file}`");
                 let problem = Diagnostic::error(MISSING_SHADER, place.clone(), message);
-                let near = near(file, folder.files.keys().map(String::as_str));
-                self.out.push(match near {
-                    Some(name) => problem.suggest(format!("did you mean `{name}`?")),
-                    None => problem,
-                });
+                self.out.push(problem.suggest_near(file, folder.files.keys().map(String::as_str)));
                 return None;
             };
             match link(source, library) {

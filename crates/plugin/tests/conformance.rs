@@ -7,6 +7,7 @@ use std::path::Path;
 
 use support::{LIGHTS, content, executor, gpu, planned, registry, run_all, scene, set_scene};
 use tempfile::TempDir;
+use tyndall_document::is_name;
 use tyndall_graph::Roots;
 use tyndall_graph::descriptor::{
     Class, Dimension, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role,
@@ -100,11 +101,6 @@ fn garbage_is_seen() {
 
 fn is_sentence(text: &str) -> bool {
     text.ends_with('.') && text.starts_with(|c: char| c.is_uppercase())
-}
-
-fn is_name(text: &str) -> bool {
-    text.starts_with(|c: char| c.is_ascii_lowercase())
-        && text.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
 }
 
 fn is_in_range(param: &ParamDescriptor) -> bool {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use tyndall_document::{Diagnostics, Source, fixture};
+use tyndall_document::{BAD_SIZE, BAD_VERSION, Diagnostics, Source, fixture};
 use tyndall_plugin::{CODES, Folder, Registry, SearchPath, find_folders};
 use tyndall_shader::Library;
 
@@ -40,7 +40,7 @@ fn run(source: &Arc<Source>) -> Diagnostics {
 
 #[test]
 fn every_code_has_its_text() {
-    fixture::check(Path::new("tests/fixtures"), CODES, &run);
+    fixture::check(Path::new("tests/fixtures"), &[CODES, &[BAD_SIZE, BAD_VERSION]].concat(), &run);
 }
 
 /// The manifest that the fixtures are mistakes of has none.

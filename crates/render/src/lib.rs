@@ -21,14 +21,16 @@
 //! # Ok(()) }
 //! ```
 
-mod codes;
+pub mod codes;
 mod error;
 mod load;
 mod picture;
 mod plugins;
 mod running;
+#[cfg(test)]
+mod tests;
 
-pub use codes::{CODES, INPUT_NEEDED, LIMIT, NO_SCENE, NOT_HOMOGENEOUS, UNFINISHED};
+pub use codes::CODES;
 pub use error::Error;
 pub use load::{Loaded, Request, Setting, Wanted, load, plan};
 pub use picture::{image, meaning, shape};

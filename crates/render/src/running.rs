@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use tyndall_document::{Diagnostic, Diagnostics};
 use tyndall_gpu::{Executor, FRAMES_PER_SECOND, FrameOptions, FrameReport, Gpu, PipelineCache, SceneBuffers, memory};
-use tyndall_graph::Plan;
+use tyndall_graph::{Graph, Pass, Plan};
 use tyndall_plugin::Registry;
 use tyndall_scene::{Encoded, Scene};
 
@@ -63,15 +63,8 @@ impl<'a> Running<'a> {
     pub fn warn_of_unfinished(&self, out: &mut Diagnostics) -> Result<(), Error> {
         let plan = self.executor.plan();
         for (pass, threads) in self.executor.unfinished()? {
-            let message = format!(
-                "pass `{}`: {} has ended its loops before they were done, in {threads} pixels: what they show is wrong",
-                plan.pass_name(pass),
-                self.executor.gpu().info.name
-            );
-            let place = plan.graph.place(plan.graph.pass(plan.passes[pass].pass).span);
-            let hint = "Mesa's llvmpipe ends all loops of a pixel after 65,535 rounds: fewer steps, lights or triangles \
-                        take fewer, and other drivers have no such limit";
-            out.push(Diagnostic::warning(UNFINISHED, place, message).suggest(hint));
+            let pass = plan.graph.pass(plan.passes[pass].pass);
+            out.push(unfinished(&plan.graph, pass, &self.executor.gpu().info.name, threads));
         }
         Ok(())
     }
@@ -84,4 +77,15 @@ impl<'a> Running<'a> {
         }
         Ok(())
     }
+}
+
+/// The warning that a driver ended loops of a pass, in so many threads.
+pub(crate) fn unfinished(graph: &Graph, pass: &Pass, driver: &str, threads: u32) -> Diagnostic {
+    let message = format!(
+        "pass `{}`: {driver} ended its loops before they were done, in {threads} pixels, whose values are wrong",
+        pass.name
+    );
+    let hint = "Mesa's llvmpipe ends all loops of a pixel after 65,535 rounds: use fewer steps, lights or triangles, or \
+                another driver, which has no such limit";
+    Diagnostic::warning(UNFINISHED, graph.place(pass.span), message).suggest(hint)
 }

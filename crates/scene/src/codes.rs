@@ -1,18 +1,10 @@
 //! The classes of mistakes that this crate reports, besides those of the document crate.
 
-use tyndall_document::Code;
-
-macro_rules! codes {
-    ($($(#[$doc:meta])* $name:ident = $text:literal;)*) => {
-        $($(#[$doc])* pub const $name: Code = Code($text);)*
-        /// Every code of this crate.
-        pub const CODES: &[Code] = &[$($name),*];
-    };
-}
+use tyndall_document::codes;
 
 codes! {
-    /// A number outside the range that it has there.
-    OUT_OF_RANGE = "out-of-range";
+    /// Every class of mistake that this crate reports and none below it.
+    CODES:
     /// A direction or axis of length 0, or one that passes through 0 between two keys.
     ZERO_DIRECTION = "zero-direction";
     /// `look_at` equals `position`, at a key or between two.

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use tyndall_document::{Diagnostics, Source, fixture};
+use tyndall_document::{Diagnostics, OUT_OF_RANGE, Source, fixture};
 use tyndall_scene::{CODES, Override, Overrides, Scene};
 
 /// Lines `// --set scene.PATH=VALUE` of a fixture are arguments of the command line.
@@ -26,7 +26,7 @@ fn run(source: &Arc<Source>) -> Diagnostics {
 
 #[test]
 fn every_code_has_its_text() {
-    fixture::check(Path::new("tests/fixtures"), CODES, &run);
+    fixture::check(Path::new("tests/fixtures"), &[CODES, &[OUT_OF_RANGE]].concat(), &run);
 }
 
 /// The codes of the document crate that scene files cause as well.

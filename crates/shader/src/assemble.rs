@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use tyndall_document::{Diagnostic, Place, Source, Span, near};
+use tyndall_document::{Diagnostic, Place, Source, Span};
 
 use crate::codes;
 use crate::library::Library;
@@ -12,7 +12,7 @@ use crate::scan::{Import, Scan, Target, scan};
 
 /// Imports may nest as deep as this.
 const DEEPEST: usize = 64;
-/// naga follows from declaration to declaration by recursion, and runs out of stack at some thousand.
+/// naga follows declarations by recursion, and runs out of stack at some thousands.
 const MOST_DECLARATIONS: usize = 2_000;
 /// naga's spans are 32 bits wide; a text near that is not a shader.
 const LONGEST: usize = 64 << 20;
@@ -23,7 +23,7 @@ pub struct Assembly {
     pub map: Map,
     /// One for each file, in the order of the text: the root first.
     pub scans: Vec<(Arc<Source>, Scan)>,
-    /// Mistakes that did not stand in the way.
+    /// Mistakes that did not prevent the assembly.
     pub problems: Vec<Diagnostic>,
 }
 
@@ -44,7 +44,7 @@ impl Assembly {
 /// `diagnostic`) in front and does not mind the order of declarations.
 ///
 /// # Errors
-/// All mistakes found, where they would only mislead naga: missing modules, cycles, brackets that do not close.
+/// All mistakes found, where they would mislead naga: missing modules, cycles, unclosed brackets.
 pub fn assemble(root: &Arc<Source>, library: &Library) -> Result<Assembly, Vec<Diagnostic>> {
     let mut collector =
         Collector { library, files: Vec::new(), done: BTreeMap::new(), chain: Vec::new(), broken: false };
@@ -113,7 +113,7 @@ impl Origin {
 struct Collector<'a> {
     library: &'a Library,
     files: Vec<(Arc<Source>, Scan)>,
-    /// Files that were begun; true: and finished.
+    /// Files that were begun, and whether they are finished.
     done: BTreeMap<Origin, bool>,
     /// From the root to the file being visited: which file, and the import that it is followed by.
     chain: Vec<(Origin, Option<Place>)>,
@@ -180,12 +180,13 @@ impl Collector<'_> {
                 }
                 let problem = wrong(format!("there is no shared module `{name}`"));
                 let file = format!("{name}.wgsl");
-                Err(Box::new(match near(name, self.library.module_names()) {
-                    Some(near) => problem.suggest(format!("did you mean `{near}`?")),
-                    None if self.library.file(&file).is_some() && !matches!(origin, Origin::Module(_)) => {
-                        problem.suggest(format!("the plugin's own file is imported as `#import \"{file}\"`"))
-                    }
-                    None => problem,
+                let names = self.library.module_names();
+                let of_plugin = self.library.file(&file).is_some() && !matches!(origin, Origin::Module(_));
+                Err(Box::new(if of_plugin {
+                    let otherwise = format!("the plugin's own file is imported as `#import \"{file}\"`");
+                    problem.suggest_near_or(name, names, otherwise)
+                } else {
+                    problem.suggest_near(name, names)
                 }))
             }
             Target::File(path) => {
@@ -194,7 +195,7 @@ impl Collector<'_> {
                     return Err(Box::new(problem.suggest("shared modules import each other by name: `#import name`")));
                 }
                 let Some(inside) = inside(path) else {
-                    let problem = wrong(format!("`{path}` leads out of the plugin's folder"));
+                    let problem = wrong(format!("`{path}` is outside the plugin's folder"));
                     return Err(Box::new(
                         problem.suggest("a plugin imports its own files, and shared modules by name"),
                     ));
@@ -203,10 +204,7 @@ impl Collector<'_> {
                     return Ok((Origin::File(inside), Arc::clone(source)));
                 }
                 let problem = wrong(format!("there is no file `{inside}` in the plugin's folder"));
-                Err(Box::new(match near(&inside, self.library.file_names()) {
-                    Some(near) => problem.suggest(format!("did you mean `{near}`?")),
-                    None => problem,
-                }))
+                Err(Box::new(problem.suggest_near(&inside, self.library.file_names())))
             }
         }
     }
@@ -238,7 +236,7 @@ fn inside(path: &str) -> Option<String> {
 fn refuse_entry_points(source: &Arc<Source>, scan: &mut Scan) {
     for Span { start, end } in std::mem::take(&mut scan.stages) {
         let place = source.place(Span { start, end });
-        let problem = Diagnostic::error(codes::ENTRY, place, "an imported file holds an entry point");
+        let problem = Diagnostic::error(codes::ENTRY, place, "an imported file has an entry point");
         scan.problems.push(problem.suggest("move what is shared to a file of its own, and import that one"));
     }
 }

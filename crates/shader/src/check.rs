@@ -1,13 +1,13 @@
-//! Shaders held against what their pass declares.
+//! Checks that a shader and its pass agree.
 //!
-//! Both directions: everything that is declared has its variable, of the kind that is declared; every variable is
-//! declared. Descriptors come from manifests or Rust, so what is missing in a shader is reported at the file of the
-//! shader, and what disagrees at the variable.
+//! In both directions: everything that is declared has its variable, of the declared kind, and every variable is declared.
+//! Descriptors come from manifests or Rust, so what is missing in a shader is reported at its file, and what disagrees at
+//! the variable.
 
 mod params;
 mod ports;
 
-use tyndall_document::{Diagnostic, Diagnostics, Place, near};
+use tyndall_document::{Diagnostic, Diagnostics, Place, did_you_mean, near};
 use tyndall_graph::descriptor::PassDescriptor;
 
 use crate::codes;
@@ -45,7 +45,7 @@ pub fn check_all(
             pass.resource(resource, &mut out);
         }
         out.extend(linked.unused.iter().map(|unused| {
-            let message = format!("`{}` is declared, and no entry point uses it", unused.name);
+            let message = format!("`{}` is declared, but no entry point uses it", unused.name);
             Diagnostic::error(codes::UNUSED, unused.place.clone(), message).suggest("use it or remove it")
         }));
     }
@@ -55,7 +55,7 @@ pub fn check_all(
     in_file_order(out)
 }
 
-/// What is at a place in a file first, then what is missing in it.
+/// Problems at a place in a file first, then what is missing from it.
 fn in_file_order(problems: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let (placed, missing): (Diagnostics, Diagnostics) =
         problems.into_iter().partition(|problem| matches!(problem.place, Place::Text { .. }));
@@ -65,7 +65,7 @@ fn in_file_order(problems: Vec<Diagnostic>) -> Vec<Diagnostic> {
     out.into_iter().collect()
 }
 
-/// What is held against each other.
+/// A pass and its shaders.
 struct Pass<'a> {
     shaders: &'a [&'a Linked],
     descriptor: &'a PassDescriptor,
@@ -90,14 +90,14 @@ impl Pass<'_> {
             ports::agree(port, resource, out);
         } else if self.private.contains(&name) || name == PARAMS {
             if name == PARAMS && !matches!(resource.kind, ResourceKind::Uniform { .. }) {
-                let message = format!("`{PARAMS}` holds the parameters, and is no uniform");
+                let message = format!("`{PARAMS}` holds the parameters, so it must be a uniform");
                 let problem = Diagnostic::error(codes::PARAM, resource.place.clone(), message);
                 out.push(problem.suggest(format!("declare `var<uniform> {PARAMS}: Params;`")));
             }
         } else if name == UNFINISHED {
             if !matches!(resource.kind, ResourceKind::StorageBuffer { read_only: false, .. }) {
                 let message =
-                    format!("`{UNFINISHED}` counts threads that did not get to the end, and is no such count");
+                    format!("`{UNFINISHED}` is reserved for the count of threads whose loops were ended early");
                 let problem = Diagnostic::error(codes::VARIABLE, resource.place.clone(), message);
                 out.push(problem.suggest(format!("write `#import {UNFINISHED}`, or choose another name")));
             }
@@ -114,7 +114,7 @@ impl Pass<'_> {
         }
     }
 
-    /// The variable is neither declared nor known.
+    /// Whether the variable is neither declared nor known.
     fn is_unknown(&self, name: &str) -> bool {
         let known = [self.private, self.scene_names, &[PARAMS, UNFINISHED]].iter().any(|names| names.contains(&name));
         !known && self.descriptor.port(name).is_none() && sampler(name).is_none()
@@ -136,10 +136,8 @@ impl Pass<'_> {
         let message =
             format!("`{name}` is neither a port of `{}`, nor scene data, nor `{PARAMS}`", self.descriptor.name);
         let problem = Diagnostic::error(codes::VARIABLE, resource.place.clone(), message);
-        match self.meant(name) {
-            Some(near) => problem.suggest(format!("did you mean `{near}`?")),
-            None => problem.suggest("declare it as a port of the pass"),
-        }
+        let otherwise = || "declare it as a port of the pass".to_owned();
+        problem.suggest(self.meant(name).map_or_else(otherwise, did_you_mean))
     }
 
     fn scene_variable(&self, resource: &Resource, out: &mut Vec<Diagnostic>) {
@@ -149,32 +147,32 @@ impl Pass<'_> {
             ResourceKind::Uniform { .. } | ResourceKind::StorageBuffer { read_only: true, .. } => {}
             ResourceKind::StorageBuffer { .. } => {
                 out.push(
-                    wrong(format!("`{name}` is scene data, which no pass can write"))
+                    wrong(format!("`{name}` is scene data, which a pass cannot write"))
                         .suggest(format!("declare `var<storage, read> {name}: …`")),
                 );
             }
-            _ => out.push(wrong(format!("`{name}` is scene data, which is a buffer"))),
+            _ => out.push(wrong(format!("`{name}` is scene data, so it must be a buffer"))),
         }
         if !self.descriptor.scene.iter().any(|declared| declared == name) {
             let pass = &self.descriptor.name;
-            let message = format!("the shader reads `{name}` of the scene, and `{pass}` does not declare it");
+            let message = format!("the shader reads `{name}` of the scene, but `{pass}` does not declare it");
             out.push(wrong(message).suggest(format!("add \"{name}\" to the scene data of the pass")));
         }
     }
 
-    /// Scene data that are declared and not read.
+    /// Scene data that are declared but not read.
     fn scene(&self, out: &mut Vec<Diagnostic>) {
         for name in &self.descriptor.scene {
             if !self.resources().any(|resource| &resource.name == name) {
                 let pass = &self.descriptor.name;
                 let message =
-                    format!("`{pass}` declares that it reads `{name}` of the scene, and no shader of it does");
+                    format!("`{pass}` declares that it reads `{name}` of the scene, but none of its shaders does");
                 let problem = Diagnostic::error(codes::SCENE, self.file(), message);
-                out.push(match near(name, self.scene_names.iter().copied()) {
-                    Some(near) if !self.scene_names.contains(&name.as_str()) => {
-                        problem.suggest(format!("did you mean `{near}`?"))
-                    }
-                    _ => problem.suggest("remove it from the scene data of the pass"),
+                let otherwise = "remove it from the scene data of the pass";
+                out.push(if self.scene_names.contains(&name.as_str()) {
+                    problem.suggest(otherwise)
+                } else {
+                    problem.suggest_near_or(name, self.scene_names.iter().copied(), otherwise)
                 });
             }
         }

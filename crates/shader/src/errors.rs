@@ -1,4 +1,4 @@
-//! naga's errors, in words for authors and at places in their files.
+//! naga's errors, worded for authors and placed in their files.
 
 mod reasons;
 
@@ -7,7 +7,7 @@ use std::error::Error;
 use naga::front::wgsl::ParseError;
 use naga::valid::ValidationError;
 use naga::{Module, WithSpan};
-use tyndall_document::{Diagnostic, Place, near};
+use tyndall_document::{Diagnostic, Place, did_you_mean, near};
 
 use crate::assemble::Assembly;
 use crate::codes;
@@ -39,7 +39,7 @@ pub fn syntax(assembly: &Assembly, library: &Library, error: &ParseError) -> Dia
     }
 }
 
-/// A name that two files declare is reported in the one that imports: its author did not write the other.
+/// A name that two files declare is reported in the importing one, whose author did not write the other.
 fn declared_twice(assembly: &Assembly, error: &ParseError) -> Option<Diagnostic> {
     let name = error.message().strip_prefix("redefinition of ")?;
     let mut places = error.labels().map(|(span, _)| assembly.map.place(span));
@@ -65,10 +65,10 @@ fn suggest(assembly: &Assembly, library: &Library, name: &str) -> Option<String>
         }
     }
     let declared = assembly.scans.iter().flat_map(|(_, scan)| scan.declared.iter());
-    near(name, declared.map(|(name, _)| name.as_str())).map(|near| format!("did you mean `{near}`?"))
+    near(name, declared.map(|(name, _)| name.as_str())).map(did_you_mean)
 }
 
-/// All words of `part` are in `whole`.
+/// Whether all words of `part` are in `whole`.
 fn says(whole: &str, part: &str) -> bool {
     let words = |text: &str| -> Vec<String> {
         text.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect()
@@ -142,13 +142,13 @@ fn reason(module: &Module, error: &ValidationError) -> String {
         cause = error.source();
     }
     let last = causes.len() - 1;
-    let told: Vec<String> = causes
+    let messages: Vec<String> = causes
         .into_iter()
         .enumerate()
         .filter(|(index, text)| *index == last || !text.ends_with(" is invalid"))
         .map(|(_, text)| tidy(&text))
         .collect();
-    format!("{subject}{}", told.join(": "))
+    format!("{subject}{}", messages.join(": "))
 }
 
 /// naga prints the index of a thing in its arena as `[12]`, which means nothing to an author.
@@ -167,7 +167,7 @@ fn without_handles(text: &str) -> String {
     out.replace(" Some()", "")
 }
 
-/// What a place that naga names by one of its types is.
+/// A place that naga names by one of its own types, in words.
 fn label(context: &str) -> String {
     let kind = context.split([' ', '<']).next().unwrap_or_default().rsplit("::").next().unwrap_or_default();
     match kind {
@@ -181,7 +181,7 @@ fn label(context: &str) -> String {
     }
 }
 
-/// Begins with a small letter where naga's does not begin with a name, and ends without a dot.
+/// Makes the first letter lower-case, unless the text begins with a name, and removes the final dot.
 fn tidy(text: &str) -> String {
     let text = text.replace("{AbstractFloat}", "AbstractFloat").replace("{AbstractInt}", "AbstractInt");
     let text = text.trim().trim_end_matches('.');
@@ -194,12 +194,12 @@ fn tidy(text: &str) -> String {
     }
 }
 
-/// naga failed by itself.
+/// naga itself failed.
 pub fn internal(assembly: &Assembly, step: &str, said: &str) -> Diagnostic {
     let (root, _) = assembly.root();
     let message = format!("naga failed while it {step} this shader: {said}");
     Diagnostic::error(codes::INTERNAL, Place::File(root.name().to_owned()), message)
-        .suggest("take back the last change of the shader: this is a fault of naga, not of its author")
+        .suggest("undo the last change of the shader: this is a bug in naga, not in the shader")
 }
 
 #[cfg(test)]
@@ -210,13 +210,13 @@ mod tests {
 
     /// The one code that no text is known to reach: 1,000,000 mutated shaders found none.
     #[test]
-    fn a_failure_of_naga_is_told() {
+    fn a_failure_of_naga_is_reported() {
         let assembly = crate::assemble::assemble(&Source::new("pass.wgsl", ""), &Library::default())
             .unwrap_or_else(|_| unreachable!());
         assert_eq!(
             render_text(&[internal(&assembly, "validates", "index out of bounds")], false).trim_end(),
             "error[shader-internal]: naga failed while it validates this shader: index out of bounds\n--> pass.wgsl\n \
-             = help: take back the last change of the shader: this is a fault of naga, not of its author"
+             = help: undo the last change of the shader: this is a bug in naga, not in the shader"
         );
     }
 

@@ -1,8 +1,8 @@
-//! naga's own failures.
+//! Failures of naga itself.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Runs a step of naga. Where naga panics (a bug of its own, which a shader's text can reach), gives what it said.
+/// Runs a step of naga. If naga panics (a bug in it that a shader can trigger), gives the message.
 pub fn guarded<T>(step: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(step)).map_err(|payload| {
         let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
@@ -15,7 +15,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_is_told() {
+    fn a_panic_becomes_a_message() {
         assert_eq!(guarded(|| 1), Ok(1));
         assert_eq!(
             guarded(|| -> u32 { panic!("entered {}", "unreachable code") }),

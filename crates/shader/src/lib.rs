@@ -2,8 +2,8 @@
 //!
 //! [`link`] joins a shader with the modules that it imports, validates the whole with naga, assigns the bindings that
 //! authors do not write, and reflects what the shader needs: [`Resource`]s, [`Param`]s, [`EntryPoint`]s. The
-//! [`naga::Module`] in [`Linked`] is what the GPU layer hands to wgpu. [`check`] holds a shader against a pass
-//! descriptor, [`reflect_ports`] makes the part of a descriptor that WGSL knows. Every mistake is a
+//! [`naga::Module`] in [`Linked`] is what the GPU layer hands to wgpu. [`check`] compares a shader with a pass
+//! descriptor, and [`reflect_ports`] makes the part of a descriptor that WGSL knows. Every mistake is a
 //! [`tyndall_document::Diagnostic`] that points into the file that its author wrote.
 //!
 //! # What an author writes
@@ -26,7 +26,7 @@
 
 mod assemble;
 mod check;
-mod codes;
+pub mod codes;
 mod errors;
 mod guard;
 mod library;

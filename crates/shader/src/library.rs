@@ -30,7 +30,7 @@ impl Library {
     /// Adds every `.wgsl` file that lies in a folder (not in folders below it) as a file of the plugin.
     ///
     /// # Errors
-    /// The first file that cannot be read; a folder that cannot be listed holds no file.
+    /// The first file that cannot be read. A folder that cannot be listed counts as empty.
     pub fn read_folder(&mut self, folder: &Path) -> Result<(), Diagnostic> {
         let mut paths: Vec<_> = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|e| e.path()).collect();
         paths.sort();
@@ -53,12 +53,12 @@ impl Library {
     }
 
     /// Names of the shared modules, sorted.
-    pub fn module_names(&self) -> impl Iterator<Item = &str> {
+    pub fn module_names(&self) -> impl Iterator<Item = &str> + Clone {
         self.modules.keys().map(String::as_str)
     }
 
     /// Paths of the plugin's files, sorted.
-    pub fn file_names(&self) -> impl Iterator<Item = &str> {
+    pub fn file_names(&self) -> impl Iterator<Item = &str> + Clone {
         self.files.keys().map(String::as_str)
     }
 }

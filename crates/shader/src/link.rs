@@ -15,8 +15,8 @@
 //!
 //! # What becomes of a module
 //! It is validated whole, so that a mistake in a function that nobody calls is found too. Then naga's `compact` drops
-//! what no entry point uses, what is left is numbered, and validated once more: wgpu gets the smallest module, and a
-//! variable of an imported file that is not used needs no binding.
+//! what no entry point uses, and the rest is numbered and validated once more: wgpu gets the smallest module, and an
+//! unused variable of an imported file needs no binding.
 
 use std::hash::Hasher;
 use std::sync::Arc;
@@ -46,7 +46,7 @@ pub struct Linked {
     /// Bound, valid, and without what no entry point uses (but whole where there is no entry point): ready for wgpu's
     /// `ShaderSource::Naga`.
     pub module: Module,
-    /// naga's findings on it.
+    /// naga's analysis of it.
     pub info: ModuleInfo,
     /// What must be bound, in the order of the numbers.
     pub resources: Vec<Resource>,
@@ -92,7 +92,7 @@ impl Linked {
     }
 }
 
-/// Links a shader with what it imports.
+/// Links a shader with the modules that it imports.
 ///
 /// # Errors
 /// Every mistake of the imports and of reserved attributes, the first that naga finds in the text (naga stops there),
@@ -112,7 +112,7 @@ pub fn link(root: &Arc<Source>, library: &Library) -> Result<Linked, Vec<Diagnos
 
 type Valid = (Module, ModuleInfo, Vec<Unused>);
 
-/// Parsed, bound, validated, freed of what is not used.
+/// Parses, binds and validates a module, and removes what is not used.
 fn module(assembly: &Assembly, library: &Library) -> Result<Valid, Box<Diagnostic>> {
     let internal = |step: &'static str| move |said: String| Box::new(errors::internal(assembly, step, &said));
     let parsed = guarded(|| naga::front::wgsl::parse_str(&assembly.text)).map_err(internal("reads"))?;

@@ -6,11 +6,11 @@ use tyndall_document::{Place, Source, Span};
 
 use crate::scan::lexer::{Lexer, Token};
 
-/// Stands between two files of the linked text. No declaration that a file leaves unfinished can go on with it, and it
-/// changes nothing; so what naga says about it is about the end of the file before.
+/// Separates two files of the linked text. It cannot continue an unfinished declaration, and it changes nothing; so an
+/// error of naga in it concerns the end of the file before.
 pub const SEPARATOR: &str = "\nconst_assert true;\n";
 
-/// Where each file of the linked text begins. A file's text is as long there as it is in the file.
+/// Where each file of the linked text begins. Each is as long there as on disk.
 #[derive(Debug, Clone, Default)]
 pub struct Map {
     files: Vec<(u32, Arc<Source>)>,
@@ -40,7 +40,7 @@ impl Map {
         Some((Arc::clone(source), span))
     }
 
-    /// Like [`Map::locate`], as a place for a diagnostic; the whole root where the span says nothing.
+    /// Like [`Map::locate`], as a place for a diagnostic; the whole root where the span is undefined.
     pub fn place(&self, span: naga::Span) -> Place {
         match self.locate(span) {
             Some((source, span)) => source.place(span),
@@ -65,7 +65,7 @@ impl Map {
         source.place(first.map_or(whole, |found| Span::new(whole.start + found.start, whole.start + found.end)))
     }
 
-    /// The span lies between two files, or after the last one.
+    /// Whether the span lies between two files, or after the last one.
     pub fn is_between(&self, span: naga::Span) -> bool {
         let Some(range) = span.to_range() else { return false };
         let before = self.files.partition_point(|(base, _)| *base as usize <= range.start);

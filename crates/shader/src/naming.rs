@@ -1,4 +1,4 @@
-//! Names of variables that are no ports.
+//! Reserved names: of variables that are not ports.
 
 /// The uniform variable whose members are parameters.
 pub const PARAMS: &str = "params";
@@ -7,7 +7,7 @@ pub const PARAMS: &str = "params";
 pub const UNFINISHED: &str = "unfinished";
 
 /// The scene data whose element count an `override` of this name is: `phase_table` of `phase_table_count`. It is given
-/// when the pipeline is made, so that what a scene does not need costs nothing; it is no parameter.
+/// when the pipeline is made, so that what a scene does not need costs nothing; it is not a parameter.
 pub fn counted(name: &str) -> Option<&str> {
     name.strip_suffix("_count")
 }
@@ -19,11 +19,11 @@ pub struct Sampler {
     pub name: &'static str,
     /// Interpolates: its binding is a filtering one, and what it samples must be filterable.
     pub filtering: bool,
-    /// Repeats outside of 0..1; otherwise the edge goes on.
+    /// Repeats outside 0..1; otherwise the edge continues.
     pub repeats: bool,
 }
 
-/// The samplers that there are. `nearest_clamp` must be bound as a non-filtering sampler.
+/// All samplers. `nearest_clamp` must be bound as a non-filtering sampler.
 pub const SAMPLERS: [Sampler; 3] = [
     Sampler { name: "linear_clamp", filtering: true, repeats: false },
     Sampler { name: "nearest_clamp", filtering: false, repeats: false },

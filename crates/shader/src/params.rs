@@ -72,14 +72,14 @@ pub struct Param {
     pub kind: ParamKind,
     /// How its value gets there.
     pub source: ParamSource,
-    /// Some entry point reads it. (An `override` that none reads is not among the parameters at all.)
+    /// Whether an entry point reads it. (An `override` that none reads is not among the parameters at all.)
     pub used: bool,
     /// Where it is declared.
     pub place: Place,
 }
 
 impl Param {
-    /// It is part of the pipeline.
+    /// Whether it is part of the pipeline.
     pub fn is_override(&self) -> bool {
         matches!(self.source, ParamSource::Override { .. })
     }
@@ -124,7 +124,7 @@ fn members(
 ) {
     let TypeInner::Struct { members, .. } = &module.types[variable.ty].inner else {
         let place = map.place_of_name(module.global_variables.get_span(handle), PARAMS);
-        let message = format!("`{PARAMS}` is no struct: its members would be the parameters");
+        let message = format!("`{PARAMS}` must be a struct, whose members are the parameters");
         problems.push(Diagnostic::error(codes::PARAM, place, message));
         return;
     };
@@ -191,6 +191,6 @@ fn zero(inner: &TypeInner) -> ParamDefault {
 }
 
 fn unsupported(name: &str, ty: &str, place: Place) -> Diagnostic {
-    Diagnostic::error(codes::PARAM, place, format!("`{name}` is of type `{ty}`, which no parameter can be"))
+    Diagnostic::error(codes::PARAM, place, format!("`{name}` is of type `{ty}`, which a parameter cannot have"))
         .suggest("parameters are f32, i32, u32, vec2<f32> to vec4<f32>, and as an override also bool")
 }

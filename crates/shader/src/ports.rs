@@ -13,9 +13,9 @@ use crate::reflect::{Resource, ResourceKind, SampleClass};
 pub struct ReflectedPort {
     /// Its name.
     pub name: String,
-    /// The shader can write to it: an output, or read and written in place.
+    /// Whether the shader can write to it: an output, or read and written in place.
     pub writable: bool,
-    /// The shader reads what it holds. A storage buffer that is declared `read_write` and only written is not readable.
+    /// Whether the shader reads it. A storage buffer that is declared `read_write` but only written is not readable.
     pub readable: bool,
     /// What flows. The class is a guess, because WGSL does not know it: one channel is `Scalar`, unsigned integers,
     /// layers and 3D are `Data`, `rgba8unorm` is `Display`, depth is `RasterDepth`, all else `Color`.
@@ -27,7 +27,7 @@ pub struct ReflectedPort {
 /// The ports of these names that the shader has, in the order of the names.
 ///
 /// # Errors
-/// Every variable of these names that no port can be (a cube texture, a buffer with something in front of its array).
+/// Every variable of these names that cannot be a port (a cube texture, a buffer with something before its array).
 /// A name that the shader does not have is left out.
 pub fn reflect_ports(linked: &Linked, names: &[&str]) -> Result<Vec<ReflectedPort>, Vec<Diagnostic>> {
     let (mut ports, mut problems) = (Vec::new(), Vec::new());
@@ -43,20 +43,20 @@ pub fn reflect_ports(linked: &Linked, names: &[&str]) -> Result<Vec<ReflectedPor
 /// What a shader says about the port that this variable is.
 ///
 /// # Errors
-/// The variable is nothing that flows along an edge.
+/// The variable is of a kind that cannot be a port.
 pub fn derive_port(resource: &Resource) -> Result<ReflectedPort, Box<Diagnostic>> {
     let wrong = |message: String| Diagnostic::error(codes::PORT, resource.place.clone(), message);
     let name = &resource.name;
     let (kind, writable, readable) = match &resource.kind {
         ResourceKind::Texture { dimension: dim, arrayed, class, filtered } => {
             let dimension = dimension(*dim, *arrayed)
-                .ok_or_else(|| wrong(format!("`{name}` is {}, which no port can be", shape(*dim, *arrayed))))?;
+                .ok_or_else(|| wrong(format!("`{name}` is {}, which a port cannot be", shape(*dim, *arrayed))))?;
             let class = sampled_class(dimension, *class);
             (PortKind::Texture { dimension, class, format: None, filtered: *filtered }, false, true)
         }
         ResourceKind::StorageTexture { dimension: dim, arrayed, format, access } => {
             let dimension = dimension(*dim, *arrayed)
-                .ok_or_else(|| wrong(format!("`{name}` is {}, which no port can be", shape(*dim, *arrayed))))?;
+                .ok_or_else(|| wrong(format!("`{name}` is {}, which a port cannot be", shape(*dim, *arrayed))))?;
             let class = stored_class(dimension, *format);
             let kind = PortKind::Texture { dimension, class, format: Some(*format), filtered: false };
             (kind, access.contains(StorageAccess::STORE), access.contains(StorageAccess::LOAD))
@@ -65,9 +65,9 @@ pub fn derive_port(resource: &Resource) -> Result<ReflectedPort, Box<Diagnostic>
             (PortKind::Value { element: type_name.clone(), bytes: *size }, false, true)
         }
         ResourceKind::StorageBuffer { header: 1.., type_name, .. } => {
-            let problem = wrong(format!("the buffer `{name}` has more in it than an array: `{type_name}`"));
+            let problem = wrong(format!("the buffer `{name}` must be an array, but is `{type_name}`"));
             return Err(Box::new(
-                problem.suggest("a port is an `array<T>`; what stands before it makes a port of its own"),
+                problem.suggest("a port is an `array<T>`; make what precedes the array a port of its own"),
             ));
         }
         ResourceKind::StorageBuffer { type_name, read_only, element, stride, .. } => {
@@ -82,7 +82,7 @@ pub fn derive_port(resource: &Resource) -> Result<ReflectedPort, Box<Diagnostic>
     Ok(ReflectedPort { name: name.clone(), writable, readable, kind, place: resource.place.clone() })
 }
 
-/// The dimension of a port; none where no port has it.
+/// The dimension of a port; `None` where a port cannot have it.
 pub fn dimension(dimension: ImageDimension, arrayed: bool) -> Option<Dimension> {
     match (dimension, arrayed) {
         (ImageDimension::D2, false) => Some(Dimension::D2),

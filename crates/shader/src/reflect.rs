@@ -18,7 +18,7 @@ use crate::types::{Member, members_of, repeated, size, type_name};
 pub struct Resource {
     /// Name of the variable.
     pub name: String,
-    /// Always 0 as yet.
+    /// Always 0 for now.
     pub group: u32,
     /// Its number in the group; the resources are numbered without gaps.
     pub binding: u32,
@@ -26,9 +26,9 @@ pub struct Resource {
     pub kind: ResourceKind,
     /// Stages that use it.
     pub stages: ShaderStages,
-    /// Some entry point reads what it holds.
+    /// Whether an entry point reads it.
     pub read: bool,
-    /// Some entry point writes to it.
+    /// Whether an entry point writes to it.
     pub written: bool,
     /// Where it is declared.
     pub place: Place,
@@ -41,7 +41,7 @@ pub enum ResourceKind {
     Texture {
         /// Its dimension.
         dimension: ImageDimension,
-        /// It has layers.
+        /// Whether it has layers.
         arrayed: bool,
         /// What reading it gives.
         class: SampleClass,
@@ -53,7 +53,7 @@ pub enum ResourceKind {
     StorageTexture {
         /// Its dimension.
         dimension: ImageDimension,
-        /// It has layers.
+        /// Whether it has layers.
         arrayed: bool,
         /// Its format.
         format: Format,
@@ -66,17 +66,17 @@ pub enum ResourceKind {
         type_name: String,
         /// Bytes.
         size: u32,
-        /// Members of its type; empty where that is no struct.
+        /// Members of its type; empty unless that is a struct.
         members: Vec<Member>,
     },
     /// A storage buffer.
     StorageBuffer {
         /// WGSL's name of its type.
         type_name: String,
-        /// The shader cannot write to it.
+        /// Whether the shader cannot write to it.
         read_only: bool,
-        /// WGSL's name of the type of its elements: of the array that it is, or that stands at its end. None where it
-        /// is one value.
+        /// WGSL's name of the type of its elements: of the array that it is, or that ends it. `None` where it is a single
+        /// value.
         element: Option<String>,
         /// Bytes from one element to the next; of one value: its bytes.
         stride: u32,
@@ -87,9 +87,9 @@ pub enum ResourceKind {
     },
     /// A sampler.
     Sampler {
-        /// It compares.
+        /// Whether it compares.
         comparison: bool,
-        /// It filters (known from its name, see [`naming::SAMPLERS`]).
+        /// Whether it filters (known from its name, see [`naming::SAMPLERS`]).
         filtering: bool,
     },
 }
@@ -111,7 +111,7 @@ pub struct EntryPoint {
     pub name: String,
     /// Its stage.
     pub stage: naga::ShaderStage,
-    /// Threads of a workgroup; zeros where it is no compute shader.
+    /// Threads of a workgroup; zeros unless it is a compute shader.
     pub workgroup_size: [u32; 3],
     /// The resources that it uses, as indices into the list of them.
     pub resources: Vec<usize>,
@@ -130,7 +130,7 @@ pub struct Target {
     pub class: SampleClass,
 }
 
-/// The storage format of WGSL as ours; none where no port can have it.
+/// A storage format of WGSL as a format of a port; `None` where a port cannot have it.
 pub fn storage_format(format: StorageFormat) -> Option<Format> {
     Some(match format {
         StorageFormat::R32Float => Format::R32Float,
@@ -194,7 +194,7 @@ fn stage_bit(stage: naga::ShaderStage) -> ShaderStages {
         naga::ShaderStage::Vertex => ShaderStages::VERTEX,
         naga::ShaderStage::Fragment => ShaderStages::FRAGMENT,
         naga::ShaderStage::Compute => ShaderStages::COMPUTE,
-        // Not among our capabilities: naga refuses them before.
+        // Not among our capabilities: naga has refused them.
         _ => ShaderStages::empty(),
     }
 }
@@ -230,9 +230,9 @@ fn kind(module: &Module, info: &ModuleInfo, handle: Handle<GlobalVariable>) -> R
             Some(Image::Storage(format, access)) => {
                 ResourceKind::StorageTexture { dimension: *dim, arrayed: *arrayed, format, access }
             }
-            None => return Err(format!("is of type `{type_name}`, which no port can be")),
+            None => return Err(format!("is of type `{type_name}`, which a port cannot have")),
         },
-        _ => return Err(format!("is of type `{type_name}`, which no port can be")),
+        _ => return Err(format!("is of type `{type_name}`, which a port cannot have")),
     })
 }
 
@@ -259,7 +259,7 @@ fn sample_class(kind: ScalarKind) -> Option<SampleClass> {
     }
 }
 
-/// Some entry point samples this texture with a filtering sampler; naga follows both through calls.
+/// Whether an entry point samples this texture with a filtering sampler; naga follows both through calls.
 fn is_filtered(module: &Module, info: &ModuleInfo, image: Handle<GlobalVariable>) -> bool {
     let filters = |sampler: Handle<GlobalVariable>| {
         let name = module.global_variables[sampler].name.as_deref();

@@ -16,8 +16,8 @@ pub struct Member {
     pub ty: String,
 }
 
-/// The members of the struct type of this name, in order; empty where the module has none. With it a test holds a
-/// `#[repr(C)]` struct against WGSL's offsets.
+/// The members of the struct type of this name, in order; empty where the module has none. With it a test can
+/// compare a `#[repr(C)]` struct with WGSL's offsets.
 ///
 /// [`crate::link`] removes what no entry point uses, but removes nothing from a root that has no entry point, such as
 /// one that only imports the module in question.
@@ -26,7 +26,7 @@ pub fn members(module: &Module, type_name: &str) -> Vec<Member> {
     found.map(|(handle, _)| members_of(module, handle)).unwrap_or_default()
 }
 
-/// The members of a type; empty where it is no struct.
+/// The members of a type; empty unless it is a struct.
 pub fn members_of(module: &Module, ty: Handle<Type>) -> Vec<Member> {
     let TypeInner::Struct { members, .. } = &module.types[ty].inner else { return Vec::new() };
     let member = |member: &naga::StructMember| Member {
@@ -43,7 +43,7 @@ pub fn size(module: &Module, ty: Handle<Type>) -> u32 {
     module.types[ty].inner.try_size(module.to_ctx()).unwrap_or(0)
 }
 
-/// WGSL's name of a type. `atomic<T>` is named as `T`: the data are the same.
+/// WGSL's name of a type. `atomic<T>` is named `T`: the data are the same.
 pub fn type_name(module: &Module, ty: Handle<Type>) -> String {
     match module.types[ty].inner {
         TypeInner::Atomic(scalar) => DiagnosticDisplay(scalar).to_string(),

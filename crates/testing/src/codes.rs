@@ -1,21 +1,10 @@
 //! Every class of mistake of a test file that this crate reports; each has a fixture in `tests/fixtures`.
 
-use tyndall_document::Code;
-
-macro_rules! codes {
-    ($($(#[doc = $doc:literal])+ $name:ident = $text:literal;)+) => {
-        $($(#[doc = $doc])+ pub const $name: Code = Code($text);)+
-
-        /// All of them, in the order of this file.
-        pub const CODES: &[Code] = &[$($name),+];
-    };
-}
+use tyndall_document::codes;
 
 codes! {
-    /// The file's `version` is one that this program does not know.
-    BAD_VERSION = "bad-version";
-    /// A size is no size, or larger than a golden may be.
-    BAD_SIZE = "bad-size";
+    /// Every class of mistake that this crate reports and none below it.
+    CODES:
     /// Frames are no frames.
     BAD_FRAMES = "bad-frames";
     /// The file looks at nothing.

@@ -5,7 +5,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use tyndall_document::{Diagnostics, Source, fixture};
+use tyndall_document::{BAD_SIZE, BAD_VERSION, Diagnostics, NEWER_VERSION, Source, fixture};
 use tyndall_graph::{PlanOptions, plan};
 use tyndall_plugin::{Registry, SearchPath};
 use tyndall_render::{Error, Loaded, load};
@@ -102,7 +102,8 @@ fn renamed(mistakes: Diagnostics, folder: &str, name: &str) -> Diagnostics {
 
 #[test]
 fn every_code_has_its_text() {
-    fixture::check(Path::new("tests/fixtures"), CODES, &run);
+    let codes = [CODES, &[BAD_SIZE, BAD_VERSION, NEWER_VERSION]].concat();
+    fixture::check(Path::new("tests/fixtures"), &codes, &run);
 }
 
 /// The test that the fixtures are mistakes of has none.

@@ -1,34 +1,34 @@
-//! A browser without a window: the report of image tests is tested in a real one.
+//! A headless browser: the report of image tests is tested in a real browser.
 
 use std::process::Command;
 
 use crate::command::{Failure, works};
 use crate::system::System;
 
-/// Debian's package. Ubuntu's of that name is none; there the advice is followed by hand.
+/// Debian's package. Ubuntu's package of that name is not a browser; there, follow the advice by hand.
 const PACKAGES: [&str; 1] = ["chromium"];
 
 /// The environment variable that names a browser.
 const BROWSER: &str = "TYNDALL_BROWSER";
 
-/// What browsers are called that speak Chromium's protocol; the test that starts one reads the same list.
+/// Names of browsers that speak Chromium's protocol; the test that starts one reads the same list.
 const NAMES: &str = include_str!("../../testing/tests/harness/browsers.txt");
 
-/// Makes sure that a browser is there; installs one where it may.
+/// Makes sure that there is a browser; installs one if it may.
 ///
 /// # Errors
-/// If there is none and none can be installed: the message says what to install.
+/// If there is none and it cannot be installed; the message says what to install.
 pub fn ensure() -> Result<(), Failure> {
-    if answers() {
+    if is_there() {
         return Ok(());
     }
-    println!("No browser answers.");
+    println!("No browser was found.");
     let system = System::here();
-    system.install(&PACKAGES, &format!("no browser answers, and the report is tested in one. {}", advice(system)))?;
-    if answers() { Ok(()) } else { Err(Failure::machine("the browser does not answer either")) }
+    system.install(&PACKAGES, &format!("no browser was found, and the report is tested in one. {}", advice(system)))?;
+    if is_there() { Ok(()) } else { Err(Failure::machine("the installed browser does not start")) }
 }
 
-fn answers() -> bool {
+fn is_there() -> bool {
     let named = std::env::var(BROWSER).ok().filter(|name| !name.is_empty());
     let names = named.iter().map(String::as_str).chain(NAMES.lines().filter(|_| named.is_none()));
     names.into_iter().any(|name| works(Command::new(name).arg("--version")))
@@ -44,7 +44,7 @@ fn advice(system: System) -> String {
         System::Alpine => "sudo apk add chromium",
         System::MacOs | System::Windows | System::OtherLinux | System::Other => "Chromium, Chrome or Edge",
     };
-    format!("Install one: {how}; or name one by {BROWSER}")
+    format!("Install one: {how}; or name one in {BROWSER}")
 }
 
 #[cfg(test)]

@@ -28,7 +28,7 @@ impl Failure {
     }
 }
 
-/// Prints the command as one would type it.
+/// Prints the command as it would be typed.
 pub fn announce(command: &Command) {
     println!("$ {}", typed(command));
 }

@@ -1,4 +1,4 @@
-//! A C++ compiler: FLIP, by which image tests compare what a person sees, is NVIDIA's own C++.
+//! A C++ compiler, for FLIP: the metric with which image tests compare what a person sees is NVIDIA's own C++.
 
 use std::process::Command;
 
@@ -8,23 +8,23 @@ use crate::system::System;
 /// Debian's and Ubuntu's package.
 const PACKAGES: [&str; 1] = ["g++"];
 
-/// Makes sure that a C++ compiler is there; installs one where it may. On Windows that comes with the tools that Rust
-/// needs anyway.
+/// Makes sure that there is a C++ compiler; installs one if it may. On Windows it comes with the tools that Rust needs
+/// anyway.
 ///
 /// # Errors
-/// If there is none and none can be installed: the message says what to install.
+/// If there is none and it cannot be installed; the message says what to install.
 pub fn ensure() -> Result<(), Failure> {
-    if cfg!(windows) || answers() {
+    if cfg!(windows) || is_there() {
         return Ok(());
     }
-    println!("No C++ compiler answers.");
+    println!("No C++ compiler was found.");
     let system = System::here();
-    system.install(&PACKAGES, &format!("no C++ compiler answers. {}", advice(system)))?;
-    if answers() { Ok(()) } else { Err(Failure::machine("the C++ compiler does not answer either")) }
+    system.install(&PACKAGES, &format!("no C++ compiler was found. {}", advice(system)))?;
+    if is_there() { Ok(()) } else { Err(Failure::machine("the installed C++ compiler does not start")) }
 }
 
 /// As the build looks for one: `CXX`, else `c++`.
-fn answers() -> bool {
+fn is_there() -> bool {
     let chosen = std::env::var_os("CXX").filter(|name| !name.is_empty());
     works(Command::new(chosen.unwrap_or_else(|| "c++".into())).arg("--version"))
 }
@@ -38,7 +38,7 @@ fn advice(system: System) -> &'static str {
         System::Suse => "Install one: sudo zypper install gcc-c++",
         System::Alpine => "Install one: sudo apk add g++",
         System::MacOs => "Install the command-line tools: xcode-select --install",
-        System::OtherLinux | System::Windows | System::Other => "Install one that is called c++, or name it by CXX.",
+        System::OtherLinux | System::Windows | System::Other => "Install one that is called c++, or name it in CXX.",
     }
 }
 

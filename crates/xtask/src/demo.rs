@@ -4,7 +4,7 @@ use crate::command::{Failure, succeed};
 use crate::workspace::Workspace;
 use crate::{compiler, driver};
 
-/// A graph of `graphs/` and what to write of it, for each of some scenes of `graphs/scenes/`.
+/// A graph of `graphs/`, what to write of it, and the scenes of `graphs/scenes/` to draw with it.
 struct Demo {
     graph: &'static str,
     scenes: &'static [&'static str],
@@ -25,7 +25,7 @@ const DEMOS: [Demo; 4] = [
     Demo { graph: "aerial-perspective", scenes: &["terrain"], outputs: &[("image", "png"), ("radiance", "exr")] },
 ];
 
-/// Builds, makes sure of a driver, renders, and prints each file that was written.
+/// Builds, makes sure that there is a driver, renders, and prints each file written.
 ///
 /// # Errors
 /// If one of these fails.

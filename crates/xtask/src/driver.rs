@@ -1,30 +1,30 @@
-//! A GPU driver that answers: the machine's own, or Mesa's software Vulkan driver.
+//! A GPU driver that works: the machine's own, or Mesa's software Vulkan driver.
 
 use crate::command::{Failure, announce, not_started};
 use crate::system::System;
 use crate::workspace::Workspace;
 
-/// Debian's and Ubuntu's packages with the software driver and the loader.
+/// Debian's and Ubuntu's packages of the software driver and the loader.
 const PACKAGES: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
 
-/// What `tyndall adapters` exits with where there is no adapter.
+/// The exit code of `tyndall adapters` if there is no adapter.
 const NO_ADAPTER: i32 = 3;
 
-/// Makes sure that the built program finds an adapter; installs the software driver where it may.
+/// Makes sure that the built program finds an adapter; installs the software driver if it may.
 ///
 /// # Errors
-/// If none is found and none can be installed: the message says what to install.
+/// If none is found and the driver cannot be installed; the message says what to install.
 pub fn ensure(workspace: &Workspace) -> Result<(), Failure> {
-    if answers(workspace)? {
+    if is_there(workspace)? {
         return Ok(());
     }
-    println!("No GPU driver answers.");
+    println!("No GPU driver was found.");
     let system = System::here();
-    system.install(&PACKAGES, &format!("no GPU driver answers. {}", advice(system)))?;
-    if answers(workspace)? { Ok(()) } else { Err(Failure::machine("the software driver does not answer either")) }
+    system.install(&PACKAGES, &format!("no GPU driver was found. {}", advice(system)))?;
+    if is_there(workspace)? { Ok(()) } else { Err(Failure::machine("the installed software driver does not work")) }
 }
 
-fn answers(workspace: &Workspace) -> Result<bool, Failure> {
+fn is_there(workspace: &Workspace) -> Result<bool, Failure> {
     let mut adapters = workspace.tyndall();
     adapters.arg("adapters");
     announce(&adapters);

@@ -1,10 +1,10 @@
-//! Every package that the workspace is built from may be used under permissive terms.
+//! Checks that every package that the workspace is built from has a permissive licence.
 
 use serde_json::Value;
 
 use crate::spdx::satisfied;
 
-/// Licences under which the whole can be given on as MIT or Apache-2.0.
+/// Licences that let the whole be distributed under MIT or Apache-2.0.
 const PERMISSIVE: [&str; 14] = [
     "0BSD",
     "Apache-2.0",
@@ -79,7 +79,7 @@ mod tests {
             "gnu 2.1.0: `GPL-3.0-only` is not permissive",
             "both 0.1.0: `MIT AND MPL-2.0` is not permissive",
             "none 0.1.0: states no licence",
-            "odd 0.1.0: `MIT OR` is no licence expression",
+            "odd 0.1.0: `MIT OR` is not a licence expression",
         ];
         assert_eq!(of(&packages).unwrap_err(), expected);
     }

@@ -1,4 +1,4 @@
-//! No file of the repository names a folder of somebody's machine.
+//! Checks that no file of the repository names a folder of somebody's machine.
 
 use std::path::Path;
 use std::process::Command;
@@ -6,7 +6,7 @@ use std::process::Command;
 /// Folders that hold people's files. Split, so that this file does not name one.
 const HOMES: [[&str; 2]; 3] = [["/ho", "me/[a-z]"], ["/Us", "ers/[A-Za-z]"], ["[A-Z]:\\\\Us", "ers\\\\"]];
 
-/// What the search found.
+/// The result of the search.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Found {
     /// No such path.

@@ -4,7 +4,7 @@
 //! start is printed before it runs. Exit codes are those of `tyndall`: 0 done, 1 a check failed, 2 wrong usage,
 //! 3 the machine cannot do it.
 
-#![allow(clippy::print_stdout, reason = "what a command-line tool has to say goes to standard output")]
+#![allow(clippy::print_stdout, reason = "a command-line tool prints to standard output")]
 
 mod browser;
 mod command;
@@ -28,11 +28,11 @@ use workspace::Workspace;
 const USAGE: &str = "\
 Usage: cargo xtask <demo|test>
 
-  demo   builds, makes sure that a GPU driver answers, renders the demo graphs into out/
-  test   builds, makes sure that a GPU driver and a browser answer, runs every check and every test
+  demo   builds, makes sure that there is a GPU driver, renders the demo graphs into out/
+  test   builds, makes sure that there are a GPU driver and a browser, runs every check and test
 
-The environment variable TYNDALL_ASSETS names the folder of the real models that some tests read; without it they do
-not run, and `test` says how many.";
+The environment variable TYNDALL_ASSETS names a folder of real models that some tests read; without it they do
+not run, and `test` reports how many.";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -54,9 +54,7 @@ fn run(arguments: &[String]) -> Result<(), Failure> {
             println!("{USAGE}");
             Ok(())
         }
-        [] => Err(Failure::usage(format!("no command is given\n\n{USAGE}"))),
-        [ref other, ..] => {
-            Err(Failure::usage(format!("`{other}` is no command, or has too many arguments\n\n{USAGE}")))
-        }
+        [] => Err(Failure::usage(format!("no command given\n\n{USAGE}"))),
+        [ref other, ..] => Err(Failure::usage(format!("unknown command `{other}`, or too many arguments\n\n{USAGE}"))),
     }
 }

@@ -1,14 +1,14 @@
-//! Crates whose types cross the project's own interfaces exist in one version each.
+//! Checks that crates whose types cross the project's interfaces exist in one version each.
 
 use std::collections::BTreeMap;
 
-/// The crates, and whether one must be there at all.
+/// The crates, and whether each must be there.
 const ONCE: [(&str, bool); 5] = [("egui", false), ("glam", true), ("naga", true), ("petgraph", true), ("wgpu", true)];
 
 /// Checks the text of a `Cargo.lock`.
 ///
 /// # Errors
-/// One line for each crate that is missing or there more than once.
+/// One line for each crate that is missing or that exists in several versions.
 pub fn check(lock: &str) -> Result<(), Vec<String>> {
     let mut versions: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for package in lock.split("[[package]]").skip(1) {
@@ -22,8 +22,8 @@ pub fn check(lock: &str) -> Result<(), Vec<String>> {
     }
     let mistake = |(name, needed): (&str, bool)| match versions.get(name).map(Vec::as_slice) {
         Some([_]) => None,
-        Some(several) => Some(format!("{name} is there in the versions {}", several.join(", "))),
-        None => needed.then(|| format!("{name} is not there")),
+        Some(several) => Some(format!("{name} exists in the versions {}", several.join(", "))),
+        None => needed.then(|| format!("{name} is missing")),
     };
     let mistakes: Vec<String> = ONCE.into_iter().filter_map(mistake).collect();
     if mistakes.is_empty() { Ok(()) } else { Err(mistakes) }
@@ -48,7 +48,7 @@ mod tests {
     #[test]
     fn two_or_none_fail() {
         let packages = [("glam", "0.29.0"), ("glam", "0.30.1"), ("naga", "30.0.0"), ("wgpu", "30.0.0")];
-        let expected = ["glam is there in the versions 0.29.0, 0.30.1", "petgraph is not there"];
+        let expected = ["glam exists in the versions 0.29.0, 0.30.1", "petgraph is missing"];
         assert_eq!(check(&lock(&packages)).unwrap_err(), expected);
         assert_eq!(check("").unwrap_err().len(), 4);
     }

@@ -12,7 +12,7 @@ pub fn satisfied(expression: &str, allowed: &dyn Fn(&str) -> bool) -> Result<boo
     let spaced = expression.replace('(', " ( ").replace(')', " ) ").replace('/', " OR ");
     let mut reader = Reader { words: spaced.split_whitespace().collect(), at: 0, allowed };
     let result = reader.any().filter(|_| reader.at == reader.words.len());
-    result.ok_or_else(|| format!("`{expression}` is no licence expression"))
+    result.ok_or_else(|| format!("`{expression}` is not a licence expression"))
 }
 
 struct Reader<'a> {

@@ -20,7 +20,7 @@ pub enum System {
 }
 
 impl System {
-    /// The one that this runs on.
+    /// The system that this runs on.
     pub fn here() -> Self {
         match std::env::consts::OS {
             "linux" => Self::of_os_release(&std::fs::read_to_string("/etc/os-release").unwrap_or_default()),
@@ -45,10 +45,10 @@ impl System {
         found.map_or(Self::OtherLinux, |(family, _)| family)
     }
 
-    /// Installs packages of Debian and Ubuntu, where this is one of them and that may be done.
+    /// Installs packages on Debian and Ubuntu, if that is allowed.
     ///
     /// # Errors
-    /// Where it may not, or fails; the message ends with the advice.
+    /// If it is not allowed, or fails; the message ends with the advice.
     pub fn install(self, packages: &[&str], advice: &str) -> Result<(), Failure> {
         let Some(mut apt) = self.apt() else { return Err(Failure::machine(advice)) };
         let environment = ("DEBIAN_FRONTEND", "noninteractive");
@@ -57,7 +57,7 @@ impl System {
             .map_err(|failure| Failure::machine(format!("{}\n{advice}", failure.message)))
     }
 
-    /// What starts `apt-get` with the right to install, if there is such a right.
+    /// The command that starts `apt-get` with the right to install, if there is one.
     fn apt(self) -> Option<impl FnMut() -> Command> {
         let usable = self == Self::Debian && works(Command::new("apt-get").arg("--version"));
         let root = works(Command::new("sh").args(["-c", "test \"$(id -u)\" = 0"]));

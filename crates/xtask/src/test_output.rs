@@ -7,18 +7,18 @@ pub struct Tally {
     pub passed: usize,
     /// Tests that failed.
     pub failed: usize,
-    /// Tests that are marked to be left out.
+    /// Tests that are marked to be ignored.
     pub ignored: usize,
     /// Tests that did not run, because they need the folder that TYNDALL_ASSETS names.
     pub without_assets: usize,
-    /// Test programs that gave a result.
+    /// Test programs that reported a result.
     pub programs: usize,
 }
 
 impl Tally {
     /// Takes one line of output: `test result: ok. 3 passed; 0 failed; …`, or `not run: 2 tests need TYNDALL_ASSETS`.
     ///
-    /// The second kind may follow other text in its line, as the test harness has often begun one.
+    /// The second kind may follow other text in its line, because the test harness has often begun one.
     pub fn read(&mut self, line: &str) {
         if let Some(result) = line.strip_prefix("test result: ") {
             self.programs += 1;
@@ -33,7 +33,7 @@ impl Tally {
     }
 }
 
-/// The number that stands right before `word`.
+/// The number right before `word`.
 fn before(text: &str, word: &str) -> usize {
     let number = text.split_once(word).and_then(|(front, _)| front.rsplit(' ').next());
     number.and_then(|number| number.parse().ok()).unwrap_or(0)

@@ -11,7 +11,7 @@ use crate::command::{Failure, output};
 pub struct Workspace {
     /// The folder of the workspace's `Cargo.toml`.
     pub root: PathBuf,
-    /// What `cargo metadata` says.
+    /// The output of `cargo metadata`.
     pub metadata: Value,
 }
 

@@ -1,4 +1,4 @@
-//! `adapters`: what this machine can draw with.
+//! `adapters`: the adapters of this machine.
 
 use tyndall_gpu::{AdapterSummary, GpuError};
 

@@ -15,7 +15,7 @@ use crate::failure::Failure;
 use crate::loading::{self, Wanted};
 use crate::{plugins, terminal};
 
-/// Frames in which each pass is timed by itself, at most: what is wanted is a median.
+/// Most frames in which each pass is timed by itself: enough for a median.
 const MOST_FRAMES_PER_PASS: u32 = 16;
 
 /// What was measured; times in microseconds, medians.
@@ -94,7 +94,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Bench) -> Result<(), 
     Ok(())
 }
 
-/// Times each pass in frames of its own: timestamps around every pass at once would distort them all.
+/// Times each pass in frames of its own: timestamps around all passes at once would distort all of them.
 fn time_passes(running: &mut Running<'_>, verb: &Bench) -> Result<Vec<PassFigures>, Failure> {
     let runs: Table<PlannedPass, u64> = running.executor.counters().iter().map(|counters| counters.runs).collect();
     let mut figures = Vec::with_capacity(runs.len());
@@ -115,7 +115,7 @@ fn time_passes(running: &mut Running<'_>, verb: &Bench) -> Result<Vec<PassFigure
     Ok(figures)
 }
 
-/// A parameter that runs from one value to another over the frames.
+/// A parameter that varies from one value to another over the frames.
 struct Varied {
     name: String,
     targets: Vec<(String, String)>,
@@ -125,7 +125,7 @@ struct Varied {
 
 impl Varied {
     fn parse(text: &str, graph: &Graph) -> Result<Self, Failure> {
-        let wrong = || Failure::Usage(format!("--vary {text} is not NAME=A..B"));
+        let wrong = || Failure::Usage(format!("--vary {text}: write NAME=A..B"));
         let (name, range) = text.split_once('=').ok_or_else(wrong)?;
         let (from, to) = range.split_once("..").ok_or_else(wrong)?;
         let (from, to): (f64, f64) = (from.parse().map_err(|_| wrong())?, to.parse().map_err(|_| wrong())?);
@@ -157,14 +157,14 @@ impl Varied {
     }
 }
 
-/// Why a parameter cannot run from one value to another.
+/// Why a parameter cannot vary.
 fn why_not(param: &ParamDescriptor, from: f64, to: f64) -> Option<String> {
     let (low, high) = param.range.unwrap_or((f64::MIN, f64::MAX));
     match param.default {
-        _ if param.fixed => Some("is a part of the pipeline, and cannot change while it runs".to_owned()),
+        _ if param.fixed => Some("is part of the pipeline, and cannot change while it runs".to_owned()),
         ParamValue::Float(_) if [from, to].iter().all(|value| (low..=high).contains(value)) => None,
         ParamValue::Float(_) => Some(format!("takes numbers from {low} to {high}")),
-        _ => Some("is no number that can run".to_owned()),
+        _ => Some("is not a number".to_owned()),
     }
 }
 

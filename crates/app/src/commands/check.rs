@@ -22,7 +22,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Check) -> Result<(), 
         } else if name.ends_with(".compare.ron") {
             comparison(app, arguments, path, &mut found)
         } else if name.ends_with(".test.ron") {
-            Err(Failure::Usage(format!("{name} is an image test: `tyndall test {name}` checks it and runs it")))
+            Err(Failure::Usage(format!("{name} is an image test: run `tyndall test {name}`")))
         } else {
             graph(app, arguments, path, &mut found)
         };
@@ -34,7 +34,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Check) -> Result<(), 
         found.dedup();
         out.extend(found);
     }
-    // Two graphs that name one scene tell its mistakes once.
+    // Two graphs that name the same scene report its mistakes once.
     out.dedup();
     match verb.format {
         Format::Json => terminal::line(&render_json(&out)),
@@ -48,7 +48,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Check) -> Result<(), 
             }
         }
     }
-    if out.has_errors() { Err(Failure::Told(2)) } else { Ok(()) }
+    if out.has_errors() { Err(Failure::Reported(2)) } else { Ok(()) }
 }
 
 fn graph(app: &App, arguments: &Arguments, path: &Path, found: &mut Diagnostics) -> Result<(), Failure> {

@@ -27,7 +27,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Compare) -> Result<()
         terminal::error(&render_text(&out, terminal::color()));
     }
     if verb.out.exists() && !verb.out.is_dir() {
-        return Err(Failure::Usage(format!("--out {} is no folder", verb.out.display())));
+        return Err(Failure::Usage(format!("--out {} is not a folder", verb.out.display())));
     }
     let gpu = Gpu::open(verb.adapter.as_deref())?;
     let bar = bar(steps(&file, verb.rounds));
@@ -41,7 +41,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Compare) -> Result<()
     bar.finish_and_clear();
     let comparison = comparison.map_err(|error| {
         terminal::error(&format!("error: {error}"));
-        Failure::Told(Failure::from(error.cause().clone()).exit_code())
+        Failure::Reported(Failure::from(error.cause().clone()).exit_code())
     })?;
     let mut written = comparison.write(&verb.out)?;
     if let Some(path) = &verb.json {
@@ -54,13 +54,13 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Compare) -> Result<()
     Ok(())
 }
 
-/// The passes that a comparison's graphs can use: plugins beside it and beside them, too.
+/// The passes that a comparison's graphs can use, those of plugins beside it and beside the graphs included.
 pub(crate) fn registry(app: &App, arguments: &Arguments, path: &Path, file: &CompareFile) -> Result<Registry, Failure> {
     let paths: Vec<&Path> = file.methods.iter().map(|method| method.path.as_path()).chain([path]).collect();
     plugins::registry(app, arguments, &paths)
 }
 
-/// The file with only what the command line asks for.
+/// The file, with only the entries that the command line asks for.
 fn chosen(mut file: CompareFile, verb: &Compare) -> Result<CompareFile, Failure> {
     file.scenes = filtered(file.scenes, "--scene", &verb.scene)?;
     file.methods = filtered(file.methods, "--method", &verb.method)?;
@@ -68,18 +68,18 @@ fn chosen(mut file: CompareFile, verb: &Compare) -> Result<CompareFile, Failure>
     Ok(file)
 }
 
-/// The entries whose names hold one of `wanted` in any case; all where nothing is wanted.
+/// The entries whose names contain one of `wanted`, in any case; all if nothing is wanted.
 fn filtered(entries: Vec<Entry>, argument: &str, wanted: &[String]) -> Result<Vec<Entry>, Failure> {
     let holds = |entry: &Entry, part: &String| entry.name.to_lowercase().contains(&part.to_lowercase());
     if let Some(part) = wanted.iter().find(|part| !entries.iter().any(|entry| holds(entry, part))) {
         let names: Vec<String> = entries.iter().map(|entry| format!("`{}`", entry.name)).collect();
-        let message = format!("{argument} {part}: no name in the file holds this; there are {}", names.join(", "));
+        let message = format!("{argument} {part}: no name in the file contains this; available: {}", names.join(", "));
         return Err(Failure::Usage(message));
     }
     Ok(entries.into_iter().filter(|entry| wanted.is_empty() || wanted.iter().any(|part| holds(entry, part))).collect())
 }
 
-/// Where somebody looks at a terminal.
+/// Progress on a terminal.
 fn bar(steps: u64) -> ProgressBar {
     let bar = ProgressBar::new(steps);
     let style = ProgressStyle::with_template("{bar:30} {percent} % {msg}");

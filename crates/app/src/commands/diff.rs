@@ -27,21 +27,21 @@ pub(crate) fn run(verb: &Diff) -> Result<(), Failure> {
     let metrics = if metrics.is_empty() { usual(display) } else { metrics };
     let mut differ = false;
     for metric in metrics {
-        // What a person sees is compared as it is shown; everything else as the numbers that the files hold.
+        // A metric of what a person sees compares encoded pictures; the others compare the numbers in the files.
         let seen = matches!(metric, Metric::Flip { .. });
         let [image, reference] = [&image, &reference].map(|image| picture(image, seen));
         let found = metric.judge(&image, &reference);
         differ |= !found.passed;
         terminal::line(&format!("{}  {metric}: {}", if found.passed { "within" } else { "beyond" }, found.figures));
     }
-    if differ { Err(Failure::Told(1)) } else { Ok(()) }
+    if differ { Err(Failure::Reported(1)) } else { Ok(()) }
 }
 
 fn is_png(path: &Path) -> Result<bool, Failure> {
     Ok(supported(path)? == FileKind::Png)
 }
 
-/// Without `--by`: the strictest of each.
+/// The strictest of each metric, for want of `--by`.
 fn usual(display: bool) -> Vec<Metric> {
     let mut metrics = vec![Metric::Exact, Metric::RelativeRmse { tolerance: 1e-4 }];
     metrics.extend(display.then_some(Metric::Flip { mean: 0.005, p99: Some(0.05) }));
@@ -56,7 +56,7 @@ fn picture(image: &Image<f64>, seen: bool) -> Picture {
     }
 }
 
-/// Encoded as a screen wants it.
+/// Encoded as sRGB for a screen.
 fn shown(image: &Image<f64>) -> Image {
     let channels = image.channels as usize;
     let mut shown = image.floats();

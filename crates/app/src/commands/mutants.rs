@@ -16,7 +16,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Mutants) -> Result<()
     let here = [PathBuf::from(".")];
     let found = discover(if verb.paths.is_empty() { &here } else { &verb.paths }).map_err(Failure::Usage)?;
     if found.tests.is_empty() {
-        return Err(Failure::Usage("there is no test: a test is a file NAME.test.ron".to_owned()));
+        return Err(Failure::Usage("no tests found: a test is a file NAME.test.ron".to_owned()));
     }
     let request = Hunt {
         tests: found.tests,
@@ -64,7 +64,7 @@ fn failure(trouble: Trouble) -> Failure {
             terminal::line(&format!("FAILED {}", outcome.name()));
             terminal::text(&outcome.text());
             terminal::line("a test fails before anything is changed: make `tyndall test` pass first");
-            Failure::Told(outcome.exit_code())
+            Failure::Reported(outcome.exit_code())
         }
         Trouble::Error(error) => error.into(),
         Trouble::Needless(_, mistakes) => mistakes.into(),
@@ -87,5 +87,5 @@ fn conclude(verb: &Mutants, findings: &[PassFindings], start: Instant) -> Result
         figures.without_goldens,
     ));
     let enough = alone >= verb.at_least_without_goldens && (verb.no_goldens || killed >= verb.at_least);
-    if enough { Ok(()) } else { Err(Failure::Told(1)) }
+    if enough { Ok(()) } else { Err(Failure::Reported(1)) }
 }

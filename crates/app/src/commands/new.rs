@@ -18,7 +18,7 @@ pub(crate) fn run(what: &New) -> Result<(), Failure> {
             let scene = sibling_scene(&graph);
             let file = scene.file_name().unwrap_or_default().to_string_lossy();
             create(&graph, &GRAPH.replace("NAME.scene.ron", &file))?;
-            // A scene of this name is somebody's work already: the graph uses it as it is.
+            // A scene of this name may be somebody's work: the graph uses it as it is.
             if !scene.exists() {
                 create(&scene, SCENE)?;
             }
@@ -44,10 +44,10 @@ fn with_suffix(name: &Path, suffix: &str) -> PathBuf {
     if text.ends_with(suffix) { name.to_owned() } else { PathBuf::from(format!("{text}{suffix}")) }
 }
 
-/// Writes a file that is not there yet.
+/// Writes a new file.
 fn create(path: &Path, text: &str) -> Result<(), Failure> {
     if path.exists() {
-        return Err(Failure::Usage(format!("{} is there already, and nothing was changed", path.display())));
+        return Err(Failure::Usage(format!("{} exists already, and was not changed", path.display())));
     }
     tyndall_image::write_bytes(path, text.as_bytes())?;
     terminal::line(&format!("wrote {}", path.display()));

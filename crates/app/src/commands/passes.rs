@@ -1,6 +1,7 @@
 //! `passes`: what every pass declares.
 
 use serde_json::{Value, json};
+use tyndall_document::did_you_mean;
 use tyndall_graph::descriptor::{
     Axis, Class, Dimension, Disabled, Extent, ParamDescriptor, ParamValue, PortDescriptor, PortKind, Preset, Role,
     SizeRule,
@@ -19,7 +20,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Passes) -> Result<(),
         Some(name) => match registry.pass(name) {
             Some(pass) => vec![pass],
             None => {
-                let near = registry.near(name).map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
+                let near = registry.near(name).map(|near| format!("; {}", did_you_mean(near))).unwrap_or_default();
                 return Err(Failure::Usage(format!("there is no pass `{name}`{near}")));
             }
         },
@@ -39,7 +40,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Passes) -> Result<(),
     Ok(())
 }
 
-/// One line a pass, under its plugin.
+/// One line for each pass, under its plugin.
 fn list(passes: &[&RegistryPass]) -> String {
     let width = passes.iter().map(|pass| pass.descriptor.name.len()).max().unwrap_or_default();
     let mut text = String::new();
@@ -67,7 +68,7 @@ fn origin(origin: &Origin) -> String {
     }
 }
 
-/// All that a pass declares, as a page.
+/// Everything that a pass declares, as a page.
 fn document(pass: &RegistryPass) -> String {
     let descriptor = &pass.descriptor;
     let mut text = format!("{}  ({}, {})\n\n", descriptor.name, pass.version, origin(&pass.origin));
@@ -113,7 +114,7 @@ fn param_text(pass: &RegistryPass, param: &ParamDescriptor) -> String {
     format!("  {}: {}\n{}", param.name, facts.join(", "), wrapped(&param.about, "      "))
 }
 
-/// The input without which a switch does nothing.
+/// The input without which a switch has no effect.
 fn need<'a>(pass: &'a RegistryPass, param: &ParamDescriptor) -> Option<&'a str> {
     pass.needs.iter().find(|need| need.param == param.name).map(|need| need.port.as_str())
 }
@@ -149,7 +150,7 @@ fn class_name(class: Class) -> String {
 }
 
 fn role(port: &PortDescriptor) -> Option<String> {
-    // a constant has four channels; a scalar port shows the one that it has
+    // A constant has four channels; for a scalar port the first one is shown.
     let constant = |value: &[f32; 4]| match port.kind {
         PortKind::Texture { class: Class::Scalar, .. } => value[0].to_string(),
         _ => format!("({})", value.map(|channel| channel.to_string()).join(", ")),
@@ -157,9 +158,9 @@ fn role(port: &PortDescriptor) -> Option<String> {
     match &port.role {
         Role::Input => None,
         Role::Optional(value) => Some(format!("optional, else {}", constant(value))),
-        Role::History(first) => Some(format!("what was there in the frame before, at first {}", constant(first))),
+        Role::History(first) => Some(format!("the frame before, at first {}", constant(first))),
         Role::Output { disabled } => Some(match disabled {
-            Disabled::Input(port) => format!("off: {port} flows on"),
+            Disabled::Input(port) => format!("when off: {port} is passed on"),
             Disabled::Constant(value) => format!("off: {}", constant(value)),
         }),
         Role::InOut => Some("changed in place".to_owned()),
@@ -209,7 +210,7 @@ fn extent(extent: &Extent) -> String {
     }
 }
 
-/// A paragraph, at most 100 characters a line.
+/// A paragraph, wrapped at 100 characters.
 fn wrapped(text: &str, indent: &str) -> String {
     let mut lines = String::new();
     let mut line = indent.to_owned();

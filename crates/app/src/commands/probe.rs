@@ -16,8 +16,9 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Probe) -> Result<(), 
     let loaded = loading::load(&verb.graph, &registry)?;
     let port = loaded.graph.find(&verb.port, Place::Argument(verb.port.clone()))?;
     let plan = loading::plan(&loaded, Wanted { roots: Roots::Ports(vec![port]), keep: false, live: &[] })?;
-    let planned =
-        plan.planned(port).ok_or_else(|| Failure::Usage(format!("`{}` is in no pass that runs", verb.port)))?;
+    let planned = plan
+        .planned(port)
+        .ok_or_else(|| Failure::Usage(format!("`{}` belongs to a pass that does not run", verb.port)))?;
     let gpu = Gpu::open(verb.adapter.as_deref())?;
     let mut running = Running::new(&gpu, plan, loaded.scene.as_ref(), &registry, &mut PipelineCache::default())?;
     running.frame(FrameOptions { frame: verb.frame, ..FrameOptions::default() })?;

@@ -23,7 +23,7 @@ struct Output {
     pattern: PathBuf,
 }
 
-/// Renders, and gives the files that the pictures depend on.
+/// Renders, and returns the files that the pictures depend on.
 pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Render) -> Result<Vec<PathBuf>, Failure> {
     let mut clock = Clock::start(app);
     let registry = plugins::registry(app, arguments, &[&verb.graph.graph])?;
@@ -61,19 +61,19 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Render) -> Result<Vec
     Ok(depends_on)
 }
 
-/// Files whose change would change the pictures.
+/// The files that the pictures depend on.
 fn depends_on(verb: &Render, loaded: &Loaded) -> Vec<PathBuf> {
     let scene = loaded.scene.iter().flat_map(|scene| scene.files().to_vec());
     std::iter::once(verb.graph.graph.clone()).chain(scene).collect()
 }
 
-/// What is asked for, checked before anything is drawn.
+/// What is to be written, checked before anything is drawn.
 fn outputs(verb: &Render, graph: &Graph) -> Result<Vec<Output>, Failure> {
     let mut outputs = Vec::new();
     for argument in &verb.output {
         let place = Place::Argument(format!("--output {argument}"));
         let Some((name, file)) = argument.split_once('=').filter(|(_, file)| !file.is_empty()) else {
-            return Err(Failure::Usage(format!("--output {argument} names no file: write NAME=FILE")));
+            return Err(Failure::Usage(format!("--output {argument}: write NAME=FILE")));
         };
         let port = graph.find(name.trim(), place)?;
         outputs.push(Output { port, pattern: PathBuf::from(file) });
@@ -82,12 +82,12 @@ fn outputs(verb: &Render, graph: &Graph) -> Result<Vec<Output>, Failure> {
         outputs = default_outputs(verb, graph);
     }
     if let Some(folder) = verb.dump.as_ref().filter(|folder| folder.exists() && !folder.is_dir()) {
-        return Err(Failure::Usage(format!("--dump {} is no folder", folder.display())));
+        return Err(Failure::Usage(format!("--dump {} is not a folder", folder.display())));
     }
     for (index, output) in outputs.iter().enumerate() {
         if outputs[..index].iter().any(|other| other.pattern == output.pattern) {
             let path = output.pattern.display();
-            return Err(Failure::Usage(format!("two outputs go to {path}, and one would overwrite the other")));
+            return Err(Failure::Usage(format!("two outputs go to {path}: one would overwrite the other")));
         }
         if supported(&output.pattern)? != FileKind::Npy && !is_picture(graph, output.port) {
             return Err(no_picture(graph.port_name(output.port), &output.pattern));
@@ -95,7 +95,7 @@ fn outputs(verb: &Render, graph: &Graph) -> Result<Vec<Output>, Failure> {
         let many = verb.frames.is_some_and(|(first, end)| end - first > 1);
         if many && !has_frame_number(&output.pattern) {
             let path = output.pattern.display();
-            return Err(Failure::Usage(format!("every frame would overwrite {path}: put #### into its name")));
+            return Err(Failure::Usage(format!("every frame would overwrite {path}: put #### in its name")));
         }
     }
     Ok(outputs)
@@ -128,9 +128,9 @@ fn write_frame(running: &Running<'_>, verb: &Render, outputs: &[Output], frame: 
         let path = frame_path(&output.pattern, frame);
         let name = || executor.plan().graph.port_name(output.port);
         let port = executor.plan().planned(output.port);
-        let port = port.ok_or_else(|| Failure::Usage(format!("`{}` is in no pass that runs", name())))?;
+        let port = port.ok_or_else(|| Failure::Usage(format!("`{}` belongs to a pass that does not run", name())))?;
         write_port(executor, port, &path)?;
-        told(&path, executor, port);
+        print_written(&path, executor, port);
     }
     if let Some(folder) = &verb.dump {
         let many = verb.frames.is_some_and(|(first, end)| end - first > 1);
@@ -141,13 +141,14 @@ fn write_frame(running: &Running<'_>, verb: &Render, outputs: &[Output], frame: 
             let path = folder.join(format!("{}.{suffix}", graph.port_name(port)));
             let Some(planned) = executor.plan().planned(port) else { continue };
             write_port(executor, planned, &path)?;
-            told(&path, executor, planned);
+            print_written(&path, executor, planned);
         }
     }
     Ok(())
 }
 
-fn told(path: &Path, executor: &Executor, port: Handle<PlannedPort>) {
+/// Prints what was written.
+fn print_written(path: &Path, executor: &Executor, port: Handle<PlannedPort>) {
     let size = match executor.plan().resource(port) {
         Resource::Texture { width, height, .. } => format!("{width}x{height}, "),
         Resource::Buffer { .. } => String::new(),
@@ -156,7 +157,7 @@ fn told(path: &Path, executor: &Executor, port: Handle<PlannedPort>) {
     terminal::line(&format!("wrote {}  ({size}{})", path.display(), tyndall_gpu::bytes(bytes)));
 }
 
-/// A bar where somebody looks at a terminal and there is something to wait for.
+/// A progress bar on a terminal, if there are several frames to wait for.
 fn progress(frames: u64) -> indicatif::ProgressBar {
     if frames < 2 {
         return indicatif::ProgressBar::hidden();

@@ -21,11 +21,11 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Test) -> Result<(), F
     let filter = verb.filter.as_deref().unwrap_or_default();
     let chosen: Vec<PathBuf> = found.tests.into_iter().filter(|path| path.to_string_lossy().contains(filter)).collect();
     if chosen.is_empty() {
-        let what = if filter.is_empty() { String::new() } else { format!(" whose path holds {filter:?}") };
+        let what = if filter.is_empty() { String::new() } else { format!(" whose path contains {filter:?}") };
         terminal::line("0 passed, 0 failed");
-        return Err(Failure::Usage(format!("there is no test{what}: a test is a file NAME.test.ron")));
+        return Err(Failure::Usage(format!("no tests found{what}: a test is a file NAME.test.ron")));
     }
-    // What cannot be written is said before anything is rendered.
+    // Output that cannot be written is refused before anything is rendered.
     if let Some(path) = verb.json.as_ref().filter(|path| path.with_extension("xml") == **path) {
         let path = path.display();
         let why = format!("--json {path}: beside the figures stands JUnit XML of that name; call them .json");
@@ -51,7 +51,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Test) -> Result<(), F
     written.and(concluded)
 }
 
-/// The figures and the report, where they are wanted.
+/// The figures and the report, if they are asked for.
 fn write(verb: &Test, run: &Run, report: Option<Report>) -> Result<(), Failure> {
     if let Some(path) = &verb.json {
         let figures = summary::json(&run.adapter, &run.outcomes, run.saved);
@@ -72,7 +72,7 @@ fn options(verb: &Test) -> Result<Options, Failure> {
         Robustness { shuffle: verb.shuffle, poison: verb.poison, no_sharing: verb.no_sharing, repeat: verb.repeat };
     if verb.isolate && (robustness.any() || verb.size.is_some() || verb.no_goldens) {
         return Err(Failure::Usage(
-            "--isolate runs passes alone from goldens: it goes with no other way to run".to_owned(),
+            "--isolate runs passes alone from goldens, and cannot be combined with other ways to run".to_owned(),
         ));
     }
     Ok(Options {
@@ -89,7 +89,7 @@ fn options(verb: &Test) -> Result<Options, Failure> {
     })
 }
 
-/// What all tests found.
+/// The results of all tests.
 #[derive(Default)]
 struct Run {
     outcomes: Vec<Outcome>,
@@ -99,8 +99,8 @@ struct Run {
 }
 
 impl Run {
-    /// Tells what a test found, writes its page, and keeps all but the pictures. A test that looked at nothing, as none of
-    /// its ports was asked for, has neither passed nor failed.
+    /// Prints the result of a test, writes its page, and keeps all but the pictures. A test that looked at nothing, because
+    /// none of its ports was asked for, has neither passed nor failed.
     fn keep(&mut self, mut outcome: Outcome, report: Option<&Report>) -> Result<(), tyndall_image::Error> {
         if outcome.ports.is_empty() && outcome.relations.is_empty() && outcome.problems.is_empty() {
             return Ok(());
@@ -116,7 +116,7 @@ impl Run {
     }
 }
 
-/// Runs tests in so many threads as asked for; those of one graph in one thread, since they share results.
+/// Runs tests in as many threads as asked for; those of one graph in one thread, since they share results.
 fn run_all(
     app: &App,
     arguments: &Arguments,
@@ -145,7 +145,7 @@ fn run_all(
                 };
                 let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
                 if let Err(error) = done.0.keep(outcome, report) {
-                    // A report that cannot be written is given up, and so is the run that is for it.
+                    // A report that cannot be written ends the run.
                     next.store(groups.len(), Ordering::Relaxed);
                     done.1 = Err(error);
                     return;
@@ -168,7 +168,7 @@ fn run_all(
     written.map(|()| run)
 }
 
-/// Tests by the graph that they name, as far as a glance at the file tells.
+/// Tests by the graph that they name, as far as a quick look at the file shows.
 fn groups(tests: &[PathBuf]) -> Vec<Vec<&Path>> {
     let mut groups: BTreeMap<String, Vec<&Path>> = BTreeMap::new();
     for path in tests {
@@ -182,7 +182,7 @@ fn groups(tests: &[PathBuf]) -> Vec<Vec<&Path>> {
     groups.into_values().collect()
 }
 
-/// A folder of goldens that belongs to no test.
+/// A folder of goldens that does not belong to any test.
 fn orphaned(folder: PathBuf) -> Outcome {
     Outcome { path: folder.clone(), problems: vec![Problem::Orphan(folder)], ..Outcome::default() }
 }
@@ -215,8 +215,8 @@ fn told(outcome: &Outcome, earlier: &mut Told) {
     terminal::text(&earlier.text(outcome));
 }
 
-/// The slowest tests, what took time, and the last line. Tests that checked nothing count neither way; where no other ran,
-/// that is a failure.
+/// The slowest tests, what took time, and the last line. Tests that checked nothing count neither way; if no other ran, that
+/// is a failure.
 fn conclude(outcomes: &[Outcome], saved: Saved) -> Result<(), Failure> {
     let [passed, failed, nothing] = summary::counts(outcomes);
     if outcomes.len() > 1 {
@@ -233,6 +233,6 @@ fn conclude(outcomes: &[Outcome], saved: Saved) -> Result<(), Failure> {
     }
     match outcomes.iter().map(Outcome::exit_code).max() {
         Some(0) | None => Ok(()),
-        Some(code) => Err(Failure::Told(code)),
+        Some(code) => Err(Failure::Reported(code)),
     }
 }

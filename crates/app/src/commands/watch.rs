@@ -1,4 +1,4 @@
-//! `render --watch`: again whenever a file changes that the pictures depend on.
+//! `render --watch`: renders again whenever a file that the pictures depend on changes.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, channel};
@@ -12,10 +12,10 @@ use crate::commands::render;
 use crate::failure::Failure;
 use crate::{plugins, terminal};
 
-/// Editors write a file in several steps; what follows within this time belongs to the same change.
+/// Editors write a file in several steps; changes within this time belong together.
 const SETTLE: Duration = Duration::from_millis(120);
 
-/// Never ends but by a signal, or where nothing can be watched.
+/// Ends only on a signal, or if nothing can be watched.
 pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Render) -> Result<(), Failure> {
     let (sender, changes) = channel();
     let mut watcher = notify::recommended_watcher(move |event| {
@@ -42,7 +42,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Render) -> Result<(),
                 }
             }
         }
-        terminal::line("watching; Ctrl-C ends");
+        terminal::line("watching; press Ctrl-C to end");
         wait(&changes, &files)?;
     }
 }
@@ -54,7 +54,7 @@ fn folder_of(file: &Path) -> PathBuf {
     }
 }
 
-/// Returns after the next change of a file that matters, and what follows it closely.
+/// Returns after the next change of a relevant file, and the changes that follow closely.
 fn wait(changes: &Receiver<notify::Result<Event>>, files: &[PathBuf]) -> Result<(), Failure> {
     loop {
         let event = changes.recv().map_err(|_| Failure::Usage("the watcher has ended".to_owned()))?;

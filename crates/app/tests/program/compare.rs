@@ -161,7 +161,7 @@ fn what_is_wrong_is_told_and_nothing_is_written() {
         (&["compare", file, "--method", "ray"], "`quadrature`"),
         (&["compare", file, "--size", "32"], "32"),
         (&["compare", file, "--rounds", "0"], "0"),
-        (&["compare", file, "--out", "there"], "there is no folder"),
+        (&["compare", file, "--out", "there"], "there is not a folder"),
         (&["compare", "graphs/broken.compare.ron"], "air.nothing"),
         (&["compare", "graphs/broken.compare.ron"], "`quadrature` names it"),
     ];

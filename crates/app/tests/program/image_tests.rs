@@ -129,7 +129,7 @@ fn one_image_is_blessed_by_the_command_that_is_told() {
 #[test]
 fn each_reason_not_to_run_has_its_own_end() {
     let desk = Desk::new();
-    assert!(desk.ends(2, &["test"]).err.contains("there is no test"));
+    assert!(desk.ends(2, &["test"]).err.contains("no tests found"));
     assert!(desk.ends(2, &["test", "nowhere"]).err.contains("there is no file or folder nowhere"));
     assert!(desk.ends(2, &["test", "fog.graph.ron"]).err.contains("is no test"));
     test(&desk, "\"aire.radiance\": (golden: Exact)");

@@ -10,6 +10,7 @@ mod bench;
 mod biri;
 mod casters;
 mod check;
+mod codes;
 mod compare;
 mod contributing;
 mod exit_codes;

@@ -4,7 +4,7 @@ mod pass;
 mod port;
 mod sizes;
 
-use tyndall_document::{Diagnostic, Place, near};
+use tyndall_document::{Diagnostic, Place};
 
 use crate::codes;
 use crate::graph::PortRef;
@@ -42,11 +42,12 @@ fn unknown(plan: &Plan, name: &str) -> Diagnostic {
     }
     let message = format!("the graph has no pass and no output named `{name}`");
     let outputs = graph.outputs.iter().map(|(output, _)| output.as_str());
-    let diagnostic = Diagnostic::error(codes::UNKNOWN_REFERENCE, place, message);
-    match near(name, graph.pass_names().chain(outputs)) {
-        Some(near) => diagnostic.suggest(format!("did you mean `{near}`?")),
-        None => diagnostic.suggest("name a pass, a `pass.port` or an output; `show` lists them"),
-    }
+    let otherwise = "name a pass, a `pass.port` or an output; `show` lists them";
+    Diagnostic::error(codes::UNKNOWN_REFERENCE, place, message).suggest_near_or(
+        name,
+        graph.pass_names().chain(outputs),
+        otherwise,
+    )
 }
 
 /// Lines of a heading and what belongs to it.

@@ -120,10 +120,3 @@ pub enum Switch {
     /// `"$name"`, without the `$`.
     Param(String),
 }
-
-/// Whether a text matches `[a-z][a-z0-9_]*`.
-pub(crate) fn is_name(text: &str) -> bool {
-    let mut bytes = text.bytes();
-    bytes.next().is_some_and(|first| first.is_ascii_lowercase())
-        && bytes.all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_')
-}

@@ -2,10 +2,9 @@
 
 use std::sync::Arc;
 
-use tyndall_document::{Decoder, Diagnostic, Diagnostics, Field, Node, Source, Span, Value, parse};
+use tyndall_document::{BAD_NAME, BAD_SIZE, Decoder, Diagnostic, Diagnostics, Field, Node, Source, Span, Value, parse};
 
-use super::{GraphFile, InputEntry, OutputEntry, ParamEntry, PassEntry, Spanned, Switch, Text, is_name};
-use crate::codes;
+use super::{GraphFile, InputEntry, OutputEntry, ParamEntry, PassEntry, Spanned, Switch, Text};
 use crate::graph::Pass;
 use crate::handle::Table;
 
@@ -32,7 +31,7 @@ fn graph(source: &Arc<Source>, mut root: Node, out: &mut Diagnostics) -> Option<
     let whole = root.span;
     let fields = open(&mut decoder, &mut root, "a graph", GRAPH_FIELDS, &["version", "passes", "outputs"])?;
     if let Some(node) = field(fields, "version") {
-        version(&mut decoder, node);
+        decoder.version(node, VERSION);
     }
     Some(GraphFile {
         source: source.clone(),
@@ -69,20 +68,6 @@ fn field<'n>(fields: &'n mut [Field], name: &str) -> Option<&'n mut Node> {
     fields.iter_mut().find(|field| field.name == name).map(|field| &mut field.value)
 }
 
-fn version(decoder: &mut Decoder<'_>, node: &Node) {
-    let Some(version) = decoder.integer(node) else { return };
-    let (code, message, suggestion) = if version > VERSION {
-        let message = format!("this file has version {version}, and this program reads up to {VERSION}");
-        (codes::NEWER_VERSION, message, "use a newer program")
-    } else if version < VERSION {
-        (codes::BAD_VERSION, format!("there is no version {version}"), "write version: 1")
-    } else {
-        return;
-    };
-    let place = decoder.place(node.span);
-    decoder.report(Diagnostic::error(code, place, message).suggest(suggestion));
-}
-
 fn scene(decoder: &mut Decoder<'_>, node: &mut Node) -> Option<Spanned<String>> {
     let value = owned_text(decoder, node)?;
     Some(Spanned { value, span: node.span })
@@ -98,7 +83,7 @@ fn size(decoder: &mut Decoder<'_>, node: &Node) -> Option<Spanned<(u32, u32)>> {
 fn wrong_size(decoder: &mut Decoder<'_>, node: &Node) -> Option<Spanned<(u32, u32)>> {
     let message = "a size is two whole numbers, (width, height)";
     let place = decoder.place(node.span);
-    decoder.report(Diagnostic::error(codes::BAD_SIZE, place, message).suggest("write size: (640, 480)"));
+    decoder.report(Diagnostic::error(BAD_SIZE, place, message).suggest("write size: (640, 480)"));
     None
 }
 
@@ -109,7 +94,7 @@ fn extent(decoder: &mut Decoder<'_>, node: &Node) -> Option<u32> {
         _ => {
             let place = decoder.place(node.span);
             let message = format!("a size of {value} pixels is none");
-            decoder.report(Diagnostic::error(codes::BAD_SIZE, place, message).suggest("give a number of 1 or more"));
+            decoder.report(Diagnostic::error(BAD_SIZE, place, message).suggest("give a number of 1 or more"));
             None
         }
     }
@@ -202,6 +187,11 @@ fn owned_text(decoder: &mut Decoder<'_>, node: &mut Node) -> Option<String> {
     None
 }
 
+/// The name of something new, which must be a valid one.
+fn check_name(decoder: &mut Decoder<'_>, name: &str, span: Span) {
+    decoder.check_name(name, span, BAD_NAME);
+}
+
 /// The name of something that is looked up elsewhere.
 fn any_name(_: &mut Decoder<'_>, _: &str, _: Span) {}
 
@@ -211,13 +201,4 @@ fn switch(decoder: &mut Decoder<'_>, node: &Node) -> Option<Spanned<Switch>> {
         _ => Switch::Fixed(decoder.bool(node)?),
     };
     Some(Spanned { value, span: node.span })
-}
-
-fn check_name(decoder: &mut Decoder<'_>, name: &str, span: Span) {
-    if !is_name(name) {
-        let place = decoder.place(span);
-        let message = format!("`{name}` is not a name");
-        let rule = "a name is lower-case letters, digits and `_`, and begins with a letter";
-        decoder.report(Diagnostic::error(codes::BAD_NAME, place, message).suggest(rule));
-    }
 }

@@ -1,8 +1,9 @@
 //! Names and defaults of a descriptor.
 
+use tyndall_document::is_name;
+
 use super::DescriptorError;
 use crate::descriptor::{PRESET, ParamDescriptor, ParamValue, PassDescriptor};
-use crate::file::is_name;
 
 /// Every name is one, and none stands twice.
 pub(super) fn check_names(descriptor: &PassDescriptor, errors: &mut Vec<DescriptorError>) {

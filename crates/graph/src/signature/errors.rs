@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use tyndall_document::NAME_RULE;
+
 /// What a descriptor gets wrong.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[allow(missing_docs, reason = "the text that each displays says it")]
@@ -32,7 +34,7 @@ impl fmt::Display for DescriptorError {
         use DescriptorError as E;
         match self {
             E::DuplicatePass(name) => write!(f, "there is a pass named `{name}` already"),
-            E::BadName(name) => write!(f, "`{name}` is not a name: lower-case letters, digits and `_`, a letter first"),
+            E::BadName(name) => write!(f, "{name:?} is not a valid name: {NAME_RULE}"),
             E::DuplicatePort(name) => write!(f, "two ports are named `{name}`"),
             E::DuplicateParam(name) => write!(f, "two parameters are named `{name}`"),
             E::UnknownSizePort { port, named } => write!(f, "the size of `{port}` names `{named}`, which is no port"),

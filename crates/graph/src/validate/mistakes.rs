@@ -1,6 +1,6 @@
 //! Mistakes as the steps find them.
 
-use tyndall_document::{Code, Diagnostic, Diagnostics, Place, near};
+use tyndall_document::{Code, Diagnostic, Diagnostics, Place, did_you_mean, near};
 
 /// Names for which a near one is sought in one file: the search is not cheap, and nobody reads more.
 const MOST_SUGGESTIONS: u32 = 100;
@@ -33,14 +33,14 @@ impl Mistakes {
         self.found.push(diagnostic);
     }
 
-    /// Reports an unknown name with the near one, if there is one, and gives it; `suggestion` says how it is written.
+    /// Reports an unknown name with the near one, if there is one, and gives it; `written` says how it is written.
     pub fn report_unknown<'n>(
         &mut self,
         (code, place): (Code, Place),
         message: String,
         name: &str,
         candidates: impl IntoIterator<Item = &'n str> + Clone,
-        suggestion: impl Fn(&str) -> String,
+        written: impl Fn(&str) -> String,
     ) -> Option<&'n str> {
         let mut diagnostic = Diagnostic::error(code, place, message);
         let mut found = None;
@@ -48,27 +48,11 @@ impl Mistakes {
             self.suggestions -= 1;
             found = near(name, candidates.clone());
             diagnostic = match found {
-                Some(near) => diagnostic.suggest(format!("did you mean `{}`?", suggestion(near))),
-                None => list_few(diagnostic, candidates, suggestion),
+                Some(near) => diagnostic.suggest(did_you_mean(&written(near))),
+                None => diagnostic.suggest_available(candidates.into_iter().map(written)),
             };
         }
         self.report(diagnostic);
         found
-    }
-}
-
-/// Names what there is, where that is little.
-fn list_few<'n>(
-    diagnostic: Diagnostic,
-    candidates: impl IntoIterator<Item = &'n str>,
-    suggestion: impl Fn(&str) -> String,
-) -> Diagnostic {
-    const MOST: usize = 12;
-    let few: Vec<String> =
-        candidates.into_iter().take(MOST + 1).map(|name| format!("`{}`", suggestion(name))).collect();
-    match few.len() {
-        0 => diagnostic.suggest("there is none"),
-        1..=MOST => diagnostic.suggest(format!("there is {}", few.join(", "))),
-        _ => diagnostic,
     }
 }

@@ -1,11 +1,10 @@
 //! What the file says that the command line may say instead: the scene and the size of the frame.
 
-use tyndall_document::{Diagnostic, Place};
+use tyndall_document::{BAD_SIZE, Diagnostic, Place};
 
 use super::Request;
 use super::mistakes::Mistakes;
 use super::scope::{Scope, missing_file};
-use crate::codes;
 
 /// Path of the scene, relative to the working directory.
 pub(super) fn scene(scope: &Scope<'_>, out: &mut Mistakes) -> Option<String> {
@@ -28,7 +27,7 @@ pub(super) fn size(request: &Request<'_>, out: &mut Mistakes) -> (u32, u32) {
     if width == 0 || height == 0 {
         let place = Place::Argument(format!("--size {width}x{height}"));
         let message = format!("a size of {width}×{height} pixels is none");
-        out.report(Diagnostic::error(codes::BAD_SIZE, place, message).suggest("give two numbers of 1 or more"));
+        out.report(Diagnostic::error(BAD_SIZE, place, message).suggest("give two numbers of 1 or more"));
     }
     (width, height)
 }

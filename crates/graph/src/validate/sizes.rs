@@ -1,6 +1,6 @@
 //! Sizes that do not agree, in words.
 
-use tyndall_document::{Diagnostic, Place};
+use tyndall_document::{BAD_SIZE, Diagnostic, Place};
 
 use crate::codes;
 use crate::descriptor::ParamValue;
@@ -38,7 +38,7 @@ fn mistake(graph: &Graph, problem: &SizeProblem) -> Option<Diagnostic> {
             let name = &graph.pass(param.pass).descriptor().params[param.param].name;
             let message = format!("`{name}` sets the size of a port, and {value} is none");
             let place = place_of(graph, param);
-            Some(Diagnostic::error(codes::BAD_SIZE, place, message).suggest("give a number of 1 or more"))
+            Some(Diagnostic::error(BAD_SIZE, place, message).suggest("give a number of 1 or more"))
         }
         SizeProblem::Picture { param } => {
             let of_pass = graph.pass(param.pass);

@@ -1,6 +1,6 @@
 //! Whether a value is one that a parameter may have.
 
-use tyndall_document::{Code, Decoder, Diagnostic, Node, Place, Value, near};
+use tyndall_document::{Code, Decoder, Diagnostic, Node, OUT_OF_RANGE, Place, Value, did_you_mean, near};
 
 use crate::codes;
 use crate::descriptor::{ParamDescriptor, ParamValue};
@@ -112,14 +112,13 @@ fn in_range(param: &ParamDescriptor, value: f64, of_type: (f64, f64)) -> Result<
         (true, false) => format!("{high} or less"),
         _ => format!("{low} to {high}"),
     };
-    Err(Mistake::new(codes::OUT_OF_RANGE, format!("`{}` is {bounds}{unit}, and not {value}", param.name)))
+    Err(Mistake::new(OUT_OF_RANGE, format!("`{}` is {bounds}{unit}, and not {value}", param.name)))
 }
 
 fn unknown_choice(param: &ParamDescriptor, word: &str) -> Mistake {
     let words: Vec<String> = param.choices.iter().map(|word| format!("`{word}`")).collect();
     let message = format!("`{}` is one of {}, and not `{word}`", param.name, words.join(", "));
-    let near = near(word, param.choices.iter().map(String::as_str));
-    let suggestion = near.map(|near| format!("did you mean `{near}`?"));
+    let suggestion = near(word, param.choices.iter().map(String::as_str)).map(did_you_mean);
     Mistake { suggestion, ..Mistake::new(codes::UNKNOWN_CHOICE, message) }
 }
 

@@ -1,12 +1,12 @@
 //! `objects: [(mesh, scale, rotation, translation, material, casts_shadow)]`.
 
 use glam::{DQuat, DVec3};
-use tyndall_document::{Decoder, Diagnostic, Fields, Node, Span, Value};
+use tyndall_document::{Decoder, Diagnostic, Fields, Node, OUT_OF_RANGE, Span, Value};
 
 use super::values::{Range, animated, direction, number, numbers, vector};
 use super::{given, parts_of};
 use crate::animate::Animated;
-use crate::codes::{BRIGHTER_THAN_WHITE, OUT_OF_RANGE};
+use crate::codes::BRIGHTER_THAN_WHITE;
 use crate::model::Material;
 use crate::primitives::Primitive;
 

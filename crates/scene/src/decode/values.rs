@@ -1,10 +1,10 @@
 //! Numbers, vectors and keys with the ranges that they have.
 
 use glam::DVec3;
-use tyndall_document::{Decoder, Diagnostic, Node, Value};
+use tyndall_document::{Decoder, Diagnostic, Node, OUT_OF_RANGE, Value};
 
 use crate::animate::{Animated, least_length};
-use crate::codes::{CONSTANT_ONLY, EMPTY_KEYS, OUT_OF_RANGE, UNSORTED_KEYS, ZERO_DIRECTION};
+use crate::codes::{CONSTANT_ONLY, EMPTY_KEYS, UNSORTED_KEYS, ZERO_DIRECTION};
 
 /// A way between two directions that comes this near to 0, relative to their length, passes through it.
 const NO_LENGTH: f64 = 1e-9;

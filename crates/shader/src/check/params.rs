@@ -1,6 +1,6 @@
 //! Parameters held against members of `params` and `override`s.
 
-use tyndall_document::{Diagnostic, near};
+use tyndall_document::{Diagnostic, did_you_mean, near};
 use tyndall_graph::descriptor::{ParamDescriptor, ParamValue};
 
 use super::Pass;
@@ -44,15 +44,13 @@ fn found<'a>(pass: &'a Pass<'_>) -> impl Iterator<Item = &'a Param> {
 }
 
 fn unknown(pass: &Pass<'_>, param: &Param) -> Diagnostic {
-    let message = format!("`{}` is no parameter of `{}`", param.name, pass.descriptor.name);
+    let message = format!("unknown parameter `{}` of `{}`", param.name, pass.descriptor.name);
     let problem = Diagnostic::error(codes::PARAM, param.place.clone(), message);
-    match meant(pass, param) {
-        Some(near) => problem.suggest(format!("did you mean `{near}`?")),
-        None => problem.suggest("declare it among the parameters of the pass, or remove it"),
-    }
+    let otherwise = || "declare it among the parameters of the pass, or remove it".to_owned();
+    problem.suggest(meant(pass, param).map_or_else(otherwise, did_you_mean))
 }
 
-/// It, or the variable whose member it would be, is there and unused: that is reported.
+/// Whether it, or the variable whose member it would be, exists but is unused, which is reported elsewhere.
 fn is_unused(pass: &Pass<'_>, declared: &ParamDescriptor) -> bool {
     let name = if declared.fixed { declared.name.as_str() } else { PARAMS };
     pass.shaders.iter().flat_map(|linked| &linked.unused).any(|unused| unused.name == name)
@@ -94,20 +92,20 @@ fn disagreement(declared: &ParamDescriptor, param: &Param) -> Option<Diagnostic>
     if !allowed.contains(&param.kind) {
         let names: Vec<String> = allowed.iter().map(|kind| format!("`{}`", kind.wgsl())).collect();
         let (want, found) = (names.join(" or "), param.kind.wgsl());
-        return wrong(format!("the parameter `{name}` is declared as {want}, and is `{found}` in the shader"));
+        return wrong(format!("the parameter `{name}` is declared as {want}, but is `{found}` in the shader"));
     }
     if declared.fixed != param.is_override() {
         return wrong(if declared.fixed {
-            format!("the parameter `{name}` is declared as fixed, and is a member of `params`")
+            format!("the parameter `{name}` is declared as fixed, but is a member of `params`")
         } else {
-            format!("`{name}` is an override, and the parameter is not declared as fixed")
+            format!("`{name}` is an override, but the parameter is not declared as fixed")
         });
     }
     if let ParamSource::Override { default: Some(default) } = param.source
         && !same(declared, default)
     {
         return wrong(format!(
-            "the default of `{name}` is {} in the pass and {} here",
+            "the default of `{name}` is {} in the pass, but {} here",
             declared.default,
             shown(default)
         ))

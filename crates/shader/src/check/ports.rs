@@ -1,4 +1,4 @@
-//! Ports held against variables.
+//! Checks that ports and variables agree.
 
 use naga::StorageAccess;
 use tyndall_document::Diagnostic;
@@ -9,7 +9,7 @@ use crate::codes;
 use crate::ports::{dimension, shape};
 use crate::reflect::{Resource, ResourceKind, SampleClass};
 
-/// Reports every port that no shader has, and every output that none writes.
+/// Reports every port that is missing from the shaders, and every output that none of them writes.
 pub fn missing(pass: &Pass<'_>, out: &mut Vec<Diagnostic>) {
     let targets: Vec<&str> = pass
         .shaders
@@ -41,13 +41,13 @@ fn without_variable(pass: &Pass<'_>, port: &PortDescriptor) -> Diagnostic {
     Diagnostic::error(codes::PORT, pass.file(), message).suggest(format!("declare `{}`", declaration(port)))
 }
 
-/// An unknown variable was probably meant to be this port: it is reported, with the port's name.
+/// Whether an unknown variable was probably meant to be this port; it is reported, with the port's name.
 fn misnamed(pass: &Pass<'_>, port: &PortDescriptor) -> bool {
     pass.resources().any(|resource| pass.is_unknown(&resource.name) && pass.meant(&resource.name) == Some(&port.name))
 }
 
 fn never_written(port: &PortDescriptor, resource: &Resource) -> Diagnostic {
-    let message = format!("`{}` is an output, and the shader never writes to it", port.name);
+    let message = format!("`{}` is an output, but the shader never writes to it", port.name);
     Diagnostic::error(codes::PORT, resource.place.clone(), message).suggest(format!("declare `{}`", declaration(port)))
 }
 
@@ -104,7 +104,7 @@ fn disagreement(port: &PortDescriptor, resource: &Resource) -> Option<String> {
                 return None;
             };
             if port.role == Role::InOut {
-                return Some(format!("`{name}` is read and written in place, and its variable is only read"));
+                return Some(format!("`{name}` is read and written in place, but its variable is read-only"));
             }
             dimensions(name, *want, dim, arrayed)
                 .or_else(|| sampling(name, *class, *format, sampled))
@@ -123,7 +123,7 @@ fn disagreement(port: &PortDescriptor, resource: &Resource) -> Option<String> {
         }
         (PortKind::Value { element, bytes }, ResourceKind::Uniform { type_name, size, .. }) => {
             if port.role.is_output() {
-                return Some(format!("`{name}` is written, and a uniform is only read"));
+                return Some(format!("`{name}` is written, but a uniform is read-only"));
             }
             value(name, (element, *bytes), (type_name, *size))
         }
@@ -131,7 +131,9 @@ fn disagreement(port: &PortDescriptor, resource: &Resource) -> Option<String> {
             PortKind::Value { element, bytes },
             ResourceKind::StorageBuffer { type_name, read_only, stride, element: None, .. },
         ) => written(port, *read_only).or_else(|| value(name, (element, *bytes), (type_name, *stride))),
-        (kind, found) => Some(format!("the port `{name}` is {}, and its variable {}", words(kind), found_words(found))),
+        (kind, found) => {
+            Some(format!("the port `{name}` is {}, but its variable is {}", words(kind), found_words(found)))
+        }
     }
 }
 
@@ -162,7 +164,7 @@ fn dimensions(name: &str, want: Dimension, dim: naga::ImageDimension, arrayed: b
         Dimension::D2Array => "a 2D texture with layers",
         Dimension::D3 => "a 3D texture",
     };
-    Some(format!("the port `{name}` is {want}, and its variable {}", shape(dim, arrayed)))
+    Some(format!("the port `{name}` is {want}, but its variable is {}", shape(dim, arrayed)))
 }
 
 /// Whether what is read fits the format, or the class where every format of a class is read.
@@ -181,21 +183,21 @@ fn sampling(name: &str, class: Class, format: Option<Format>, sampled: SampleCla
     };
     let found = words(sampled);
     let wanted = words(allowed[0]);
-    (!allowed.contains(&sampled)).then(|| format!("the port `{name}` holds {wanted}, and its variable reads {found}"))
+    (!allowed.contains(&sampled)).then(|| format!("the port `{name}` holds {wanted}, but its variable reads {found}"))
 }
 
 fn filtering(name: &str, filtered: bool) -> String {
     if filtered {
-        format!("`{name}` is sampled with a filtering sampler, and its port is not declared as filtered")
+        format!("`{name}` is sampled with a filtering sampler, but its port is not declared as filtered")
     } else {
-        format!("the port `{name}` is declared as filtered, and no filtering sampler samples it")
+        format!("the port `{name}` is declared as filtered, but no filtering sampler samples it")
     }
 }
 
 fn formats(name: &str, want: Option<Format>, stored: Format) -> String {
     match want {
-        Some(want) => format!("the port `{name}` is {want}, and its variable {stored}"),
-        None => format!("the port `{name}` has any format of its class, and its variable is {stored}"),
+        Some(want) => format!("the port `{name}` is {want}, but its variable is {stored}"),
+        None => format!("the port `{name}` has any format of its class, but its variable is {stored}"),
     }
 }
 
@@ -204,22 +206,22 @@ fn access_of(port: &PortDescriptor, access: StorageAccess) -> Option<String> {
         (&port.name, access.contains(StorageAccess::LOAD), access.contains(StorageAccess::STORE));
     match port.role {
         Role::InOut if !(loads && stores) => {
-            Some(format!("`{name}` is read and written in place, and its variable is not `read_write`"))
+            Some(format!("`{name}` is read and written in place, but its variable is not `read_write`"))
         }
         Role::Input | Role::Optional(_) | Role::History(_) if stores => {
-            Some(format!("`{name}` is an input, and its variable can be written"))
+            Some(format!("`{name}` is an input, but its variable is writable"))
         }
         _ => None,
     }
 }
 
-/// Of a buffer: whether it may be written just where its port says so.
+/// Checks that a buffer is writable exactly where its port says so.
 fn written(port: &PortDescriptor, read_only: bool) -> Option<String> {
     let name = &port.name;
     match (&port.role, read_only) {
-        (Role::InOut, true) => Some(format!("`{name}` is read and written in place, and its variable is only read")),
+        (Role::InOut, true) => Some(format!("`{name}` is read and written in place, but its variable is read-only")),
         (Role::Input | Role::Optional(_) | Role::History(_), false) => {
-            Some(format!("`{name}` is an input, and its variable can be written"))
+            Some(format!("`{name}` is an input, but its variable is writable"))
         }
         _ => None,
     }
@@ -232,16 +234,18 @@ fn buffer(port: &PortDescriptor, element: &str, stride: u32, found: &ResourceKin
     };
     let name = &port.name;
     let Some(held) = held else {
-        return Some(format!("the port `{name}` is a buffer of elements, and its variable one `{type_name}`"));
+        return Some(format!("the port `{name}` is a buffer of elements, but its variable is a single `{type_name}`"));
     };
     if *header > 0 {
-        return Some(format!("the buffer `{name}` has more in it than an array: `{type_name}`"));
+        return Some(format!("the buffer `{name}` must be an array, but is `{type_name}`"));
     }
     written(port, *read_only).or_else(|| {
         if held != element {
-            Some(format!("the elements of the port `{name}` are `{element}`, and those of its variable `{held}`"))
+            Some(format!("the elements of the port `{name}` are `{element}`, but those of its variable are `{held}`"))
         } else if *held_stride != stride {
-            Some(format!("an element of the port `{name}` takes {stride} bytes, and one of its variable {held_stride}"))
+            Some(format!(
+                "an element of the port `{name}` takes {stride} bytes, but one of its variable takes {held_stride}"
+            ))
         } else {
             None
         }
@@ -250,9 +254,9 @@ fn buffer(port: &PortDescriptor, element: &str, stride: u32, found: &ResourceKin
 
 fn value(name: &str, want: (&str, u32), found: (&str, u32)) -> Option<String> {
     if want.0 != found.0 {
-        Some(format!("the port `{name}` is a `{}`, and its variable a `{}`", want.0, found.0))
+        Some(format!("the port `{name}` is a `{}`, but its variable is a `{}`", want.0, found.0))
     } else if want.1 != found.1 {
-        Some(format!("the port `{name}` takes {} bytes, and its variable {}", want.1, found.1))
+        Some(format!("the port `{name}` takes {} bytes, but its variable takes {}", want.1, found.1))
     } else {
         None
     }

@@ -1,4 +1,4 @@
-//! naga's commoner findings, with names and types in place of its handles and internal notation.
+//! The commoner errors of naga, with names and types in place of its handles and internal notation.
 
 use naga::common::wgsl::TypeContext as _;
 use naga::valid::{CallError, EntryPointError, ExpressionError, FunctionError, ValidationError};
@@ -6,7 +6,7 @@ use naga::{BinaryOperator, Handle, Module, Type, TypeInner};
 
 use crate::types::type_name;
 
-/// What a mistake is, in words for an author; none where naga's own words must do.
+/// What a mistake is, worded for an author; `None` where naga's own words must do.
 pub fn known(module: &Module, error: &ValidationError) -> Option<String> {
     match error {
         ValidationError::Function { source, .. }
@@ -22,10 +22,12 @@ fn function(module: &Module, error: &FunctionError) -> Option<String> {
             returned(module, expression.is_some(), *expected_ty)
         }
         FunctionError::InvalidStorePointer(_) => "this cannot be written to".to_owned(),
-        FunctionError::InvalidStoreTypes { .. } => "the value is not of the type of what it is stored in".to_owned(),
+        FunctionError::InvalidStoreTypes { .. } => {
+            "the value does not have the type of the place where it is stored".to_owned()
+        }
         FunctionError::InvalidStoreValue { actual_ty, expected_ty, .. } => {
             let (actual, expected) = (inner_name(module, actual_ty), inner_name(module, expected_ty));
-            format!("the texture stores `{expected}`, and is given `{actual}`")
+            format!("the texture stores `{expected}`, but the value is `{actual}`")
         }
         FunctionError::InvalidCall { function, error: CallError::ArgumentType { index, required, .. } } => {
             let callee = module.functions[*function].name.as_deref().unwrap_or("the function");
@@ -37,9 +39,9 @@ fn function(module: &Module, error: &FunctionError) -> Option<String> {
 
 fn returned(module: &Module, value: bool, expected: Option<Handle<Type>>) -> String {
     match (value, expected) {
-        (true, Some(ty)) => format!("the value is not a `{}`, which the function returns", type_name(module, ty)),
+        (true, Some(ty)) => format!("the function returns `{}`, but the value has another type", type_name(module, ty)),
         (false, Some(ty)) => format!("it ends without returning a `{}`", type_name(module, ty)),
-        _ => "it returns a value, and declares none".to_owned(),
+        _ => "it returns a value, but declares no return type".to_owned(),
     }
 }
 

@@ -45,7 +45,7 @@ fn with_arguments(text: &str, span: Span) -> Span {
     }
 }
 
-/// Only blanks stand between them.
+/// Whether only blanks are between them.
 fn touches(text: &str, before: Span, after: Span) -> bool {
     text.get(before.end as usize..after.start as usize).is_some_and(|between| between.chars().all(is_blank))
 }

@@ -1,4 +1,4 @@
-//! Whether every bracket of a file closes in it, and no expression is too deep.
+//! Checks that the brackets of a file are closed in it, and that no expression is too deep.
 //!
 //! naga reads an expression by recursion, one step for each operator, and runs out of stack where there are some
 //! thousand of them (a 2 MiB stack: between 3,000 and 5,000). So their number is bounded here.
@@ -9,14 +9,14 @@ use tyndall_document::{Diagnostic, Source, Span};
 
 use crate::codes;
 
-/// The deepest expression that is taken, in operators, from its root to any leaf.
+/// The deepest expression allowed, in operators, from its root to any leaf.
 const DEEPEST: u32 = 1_000;
 
-/// The brackets that are open; after the first mistake nothing more is said.
+/// The brackets that are open; only the first mistake is reported.
 #[derive(Default)]
 pub struct Brackets {
     open: Vec<(u8, Span)>,
-    /// The depth of the expression that is being read: outside of all brackets, and in each that is open.
+    /// The depth of the expression that is being read: outside all brackets, and in each open one.
     outside: Depth,
     inside: Vec<Depth>,
     failed: bool,
@@ -27,7 +27,7 @@ pub struct Brackets {
 struct Depth {
     /// Operators and brackets since the last `,` or `;`.
     operators: u32,
-    /// The deepest that stands in brackets since then.
+    /// The deepest expression in brackets since then.
     inner: u32,
     /// The deepest before, since the last `;`.
     before: u32,
@@ -45,12 +45,12 @@ impl Brackets {
         self.open.len()
     }
 
-    /// Takes a mark; gives the mistake where it closes what is not open, or makes an expression too deep.
+    /// Takes a mark; returns the mistake where it closes what is not open, or makes an expression too deep.
     pub fn mark(&mut self, source: &Arc<Source>, mark: u8, span: Span) -> Option<Diagnostic> {
         self.deepen(mark);
         if self.inside.last().unwrap_or(&self.outside).total() > DEEPEST && !self.failed {
             self.failed = true;
-            let message = format!("this expression has more than {DEEPEST} operators in one another");
+            let message = format!("the operators of this expression are nested more than {DEEPEST} deep");
             return Some(Diagnostic::error(codes::SYNTAX, source.place(span), message).suggest("compute it in parts"));
         }
         let opening = match mark {
@@ -71,10 +71,10 @@ impl Brackets {
         let place = |span| source.place(span);
         let closing = char::from(mark);
         Some(match open {
-            None => Diagnostic::error(codes::SYNTAX, place(span), format!("`{closing}` closes nothing")),
+            None => Diagnostic::error(codes::SYNTAX, place(span), format!("`{closing}` has no opening bracket")),
             Some((open, open_span)) => {
                 let open = char::from(open);
-                let message = format!("`{closing}` stands where `{open}` is still open");
+                let message = format!("`{closing}` does not close `{open}`");
                 Diagnostic::error(codes::SYNTAX, place(span), message)
                     .relate(place(open_span), format!("`{open}` is opened here"))
             }
@@ -102,10 +102,10 @@ impl Brackets {
         }
     }
 
-    /// At the end of the file: gives the mistake where one is still open.
+    /// At the end of the file: returns the mistake where a bracket is still open.
     pub fn end(self, source: &Arc<Source>) -> Option<Diagnostic> {
         let (open, span) = self.open.into_iter().next_back().filter(|_| !self.failed)?;
         let place = source.place(span);
-        Some(Diagnostic::error(codes::SYNTAX, place, format!("`{}` is never closed", char::from(open))))
+        Some(Diagnostic::error(codes::SYNTAX, place, format!("`{}` is not closed", char::from(open))))
     }
 }

@@ -7,7 +7,7 @@ use tyndall_document::Span;
 pub enum Token<'t> {
     /// Letters, digits and `_`; numbers too.
     Word(&'t str),
-    /// `@name`, without what stands in brackets after it.
+    /// `@name`, without the brackets after it.
     Attribute(&'t str),
     /// `#`.
     Hash,
@@ -64,7 +64,7 @@ impl<'t> Lexer<'t> {
         self.at += rest.find(|c| !keep(c)).unwrap_or(rest.len());
     }
 
-    /// Skips a block comment, its nested ones included; gives false where it does not end.
+    /// Skips a block comment, its nested ones included; returns false where it does not end.
     fn skip_block_comment(&mut self) -> bool {
         let bytes = self.text.as_bytes();
         let mut depth = 0_usize;

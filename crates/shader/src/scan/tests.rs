@@ -38,9 +38,9 @@ fn declared_names_are_found() {
 
 #[test]
 fn brackets_and_comments_must_close() {
-    assert_eq!(messages("fn f() { if (a { }\n"), ["`(` is never closed"]);
-    assert_eq!(messages("fn f() { ) }"), ["`)` stands where `{` is still open"]);
-    assert_eq!(messages("}"), ["`}` closes nothing"]);
+    assert_eq!(messages("fn f() { if (a { }\n"), ["`(` is not closed"]);
+    assert_eq!(messages("fn f() { ) }"), ["`)` does not close `{`"]);
+    assert_eq!(messages("}"), ["`}` has no opening bracket"]);
     assert_eq!(messages("/* /* */"), ["this comment is never closed"]);
 }
 
@@ -55,7 +55,7 @@ fn written_bindings_are_refused_once_each() {
 
 #[test]
 fn deep_expressions_are_refused_and_long_tables_are_not() {
-    let deep = ["this expression has more than 1000 operators in one another"];
+    let deep = ["the operators of this expression are nested more than 1000 deep"];
     assert_eq!(messages(&format!("const a = {} 1;", "!".repeat(1_001))), deep);
     assert_eq!(messages(&format!("const a = {} 1;", "f(1, 2) + ".repeat(600))), deep);
     assert_eq!(messages(&format!("const a = {}1{};", "(1 + ".repeat(600), ")".repeat(600))), deep);

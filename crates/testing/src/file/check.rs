@@ -1,6 +1,6 @@
 //! A test file held against its graph: which ports its taps mean, and whether what they ask fits.
 
-use tyndall_document::{Diagnostic, Diagnostics, Place, Span, near};
+use tyndall_document::{Diagnostic, Diagnostics, Place, Span};
 use tyndall_graph::descriptor::{Class, PortKind};
 use tyndall_graph::{Graph, PortRef};
 
@@ -57,7 +57,7 @@ impl Checker<'_> {
             let message = format!("`{pattern}` matches no port of the graph");
             let names: Vec<String> = ports.iter().map(|port| self.graph.port_name(*port)).collect();
             let problem = Diagnostic::error(codes::EMPTY_PATTERN, place, message);
-            self.out.push(suggest_near(problem, pattern, &names));
+            self.out.push(problem.suggest_near(pattern, names.iter().map(String::as_str)));
         } else if let Some(off) = matching.iter().map(|port| self.graph.pass(port.pass)).find(|pass| !pass.enabled)
             && matching.iter().all(|port| !self.graph.pass(port.pass).enabled)
         {
@@ -185,13 +185,6 @@ fn class(graph: &Graph, port: PortRef) -> Option<Class> {
         PortKind::Texture { class, .. } if *class != Class::Any => Some(*class),
         PortKind::Texture { .. } => None,
         PortKind::Buffer { .. } | PortKind::Value { .. } => Some(Class::Data),
-    }
-}
-
-fn suggest_near(problem: Diagnostic, pattern: &str, names: &[String]) -> Diagnostic {
-    match near(pattern, names.iter().map(String::as_str)) {
-        Some(name) => problem.suggest(format!("did you mean `{name}`?")),
-        None => problem.suggest(format!("its ports are {}", names.join(", "))),
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use tyndall_document::{Decoder, Diagnostic, Diagnostics, MISSING_FILE, Node, Source, Value, parse};
+use tyndall_document::{BAD_SIZE, Decoder, Diagnostic, Diagnostics, MISSING_FILE, Node, Source, Value, parse};
 use tyndall_render::{Request, Setting};
 
 use super::expect::{metric, properties, relations};
@@ -41,13 +41,8 @@ pub fn read(path: &Path, out: &mut Diagnostics) -> Option<TestFile> {
 fn test(source: &Arc<Source>, path: &Path, root: &Node, out: &mut Diagnostics) -> Option<TestFile> {
     let mut decoder = Decoder { source, out };
     let fields = decoder.fields(root, "a test", FIELDS)?;
-    if let Some(node) = fields.required(&mut decoder, "version")
-        && let Some(version) = decoder.integer(node)
-        && version != VERSION
-    {
-        let place = decoder.place(node.span);
-        let message = format!("this file has version {version}, and this program reads {VERSION}");
-        decoder.report(Diagnostic::error(codes::BAD_VERSION, place, message));
+    if let Some(node) = fields.required(&mut decoder, "version") {
+        decoder.version(node, VERSION);
     }
     let folder = path.parent().unwrap_or(Path::new(""));
     let graph = fields.required(&mut decoder, "graph").and_then(|node| file(&mut decoder, folder, node));
@@ -69,7 +64,7 @@ fn test(source: &Arc<Source>, path: &Path, root: &Node, out: &mut Diagnostics) -
         let place = decoder.place(node.span);
         let message = format!("a golden of {}x{} pixels is too large for a repository", size.0, size.1);
         let most = format!("{MOST_SIDE} pixels along each side at most");
-        decoder.report(Diagnostic::error(codes::BAD_SIZE, place, message).suggest(most));
+        decoder.report(Diagnostic::error(BAD_SIZE, place, message).suggest(most));
     }
     let request = Request { graph: graph?, scene, size: Some(size), set };
     Some(TestFile { source: source.clone(), path: path.to_owned(), about, request, frames, taps, relations })
@@ -100,7 +95,7 @@ fn size(decoder: &mut Decoder<'_>, node: &Node) -> Option<(u32, u32)> {
     if size.is_none() {
         let place = decoder.place(node.span);
         let message = "a size is two whole numbers above 0, (width, height)";
-        decoder.report(Diagnostic::error(codes::BAD_SIZE, place, message).suggest("write size: (64, 48)"));
+        decoder.report(Diagnostic::error(BAD_SIZE, place, message).suggest("write size: (64, 48)"));
     }
     size
 }
