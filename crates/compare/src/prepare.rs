@@ -174,7 +174,7 @@ fn placed(file: &CompareFile, entries: &[&Entry], found: Diagnostics) -> Diagnos
             None => {
                 let entry = file.source.place(entries[0].name_span);
                 if mistake.place != entry {
-                    mistake = mistake.relate(entry, format!("used by `{}`", entries[0].name));
+                    mistake = mistake.relate(entry, format!("`{}` uses it", entries[0].name));
                 }
             }
         }

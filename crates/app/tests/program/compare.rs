@@ -163,7 +163,7 @@ fn what_is_wrong_is_told_and_nothing_is_written() {
         (&["compare", file, "--rounds", "0"], "0"),
         (&["compare", file, "--out", "there"], "there is not a folder"),
         (&["compare", "graphs/broken.compare.ron"], "air.nothing"),
-        (&["compare", "graphs/broken.compare.ron"], "`quadrature` names it"),
+        (&["compare", "graphs/broken.compare.ron"], "`quadrature` uses it"),
     ];
     for (arguments, part) in cases {
         let ended = desk.ends(2, arguments);
