@@ -3,9 +3,9 @@
 
 use std::path::{Path, PathBuf};
 
+use tyndall_mutants::{Figures, Hunt, hunt, missed};
 use tyndall_plugin::SearchPath;
 use tyndall_testing::Session;
-use tyndall_testing::mutants::{Figures, Hunt, hunt, missed};
 
 #[test]
 fn a_sample_of_mutants_is_killed() {

@@ -9,15 +9,15 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 
 /// Shader modules and compute pipelines that outlive a plan, of one device: the same shader with the same constants is
-/// compiled once.
-#[derive(Default)]
+/// compiled once. A copy shares what is compiled so far, and nothing after that.
+#[derive(Clone, Default)]
 pub struct PipelineCache {
     modules: HashMap<u64, wgpu::ShaderModule>,
     pipelines: HashMap<PipelineKey, wgpu::ComputePipeline>,
 }
 
 /// What tells one compute pipeline from another; the layout follows from the shader.
-#[derive(PartialEq, Eq, Hash)]
+#[derive(Clone, PartialEq, Eq, Hash)]
 struct PipelineKey {
     shader: u64,
     label: String,
@@ -26,12 +26,6 @@ struct PipelineKey {
 }
 
 impl PipelineCache {
-    /// Lets go of what was made of a shader, which will not come again.
-    pub fn forget(&mut self, shader: u64) {
-        self.modules.remove(&shader);
-        self.pipelines.retain(|key, _| key.shader != shader);
-    }
-
     /// The shader as a module of the device.
     pub(crate) fn module(
         &mut self,

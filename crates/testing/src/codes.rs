@@ -33,6 +33,4 @@ codes! {
     NO_REFERENCE = "no-reference";
     /// A relation compares nothing.
     EMPTY_RELATION = "empty-relation";
-    /// A reason is given for a mutant that cannot be made, or does not survive.
-    STALE_REASON = "stale-reason";
 }

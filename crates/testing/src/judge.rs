@@ -40,7 +40,7 @@ impl Judge<'_> {
             let position = plan.position(tapped.port.pass);
             let made_from = position.map(|position| upstream.ports(position));
             let inherits = || made_from.is_some_and(|ports| !ports.is_disjoint(&failing));
-            if self.options.until_failure && inherits() {
+            if self.options.fail_fast && inherits() {
                 continue;
             }
             let outcome = self.port(tapped, rendered);

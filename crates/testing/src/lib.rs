@@ -12,7 +12,6 @@
 //! | whose fault it is: [`Outcome`] | `judge` |
 //! | goldens and what they were made from | [`golden`] |
 //! | pages that show it | [`Report`] |
-//! | whether the tests themselves notice mistakes | [`mutants`] |
 //!
 //! It knows no command line; the verbs `tyndall test` and `tyndall diff` are one user of it, the tests of a plugin's
 //! crate another:
@@ -39,7 +38,6 @@ pub mod golden;
 mod isolate;
 mod judge;
 mod metric;
-pub mod mutants;
 mod options;
 mod outcome;
 mod picture;
@@ -49,7 +47,6 @@ mod report;
 mod robust;
 mod run;
 mod session;
-mod substitute;
 pub mod summary;
 mod told;
 mod untapped;

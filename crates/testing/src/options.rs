@@ -21,7 +21,12 @@ pub struct Options {
     pub without_goldens: bool,
     /// Ask no more than what tells whose fault it is once something does not hold: no relations, and nothing of ports that
     /// were made from one that fails.
-    pub until_failure: bool,
+    pub fail_fast: bool,
+    /// Judge ports of passes of this kind (`plugin.pass`) alone: neither what they were made from nor what is made from
+    /// them, and no relations.
+    pub only: Option<String>,
+    /// Tell a digest of all that is rendered.
+    pub digest: bool,
     /// Another size than the test says, in pixels. Goldens are left out, and whatever else is stated for a size.
     pub size: Option<(u32, u32)>,
     /// Render again in other ways, and hold every port against the first rendering, bit by bit.

@@ -41,6 +41,9 @@ pub struct Outcome {
     pub passes: Vec<PassOutcome>,
     /// Wall-clock time.
     pub took: Duration,
+    /// Of every number that was rendered, in order, where [`Options::digest`](crate::Options::digest) asks for it: two runs
+    /// of a test that come out alike bit by bit have the same.
+    pub digest: Option<u64>,
     /// Name of its page in a report, without the suffix; empty where there is no report.
     pub page: String,
     /// Path of the picture that stands for it in a report: of a port that diverged, else of the last one.

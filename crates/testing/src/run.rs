@@ -13,6 +13,7 @@ use tyndall_render::{Error, Loaded, load};
 
 use crate::adapter::AdapterClass;
 use crate::blame::{Upstream, attribute};
+use crate::digest::Digest;
 use crate::file::{Change, Expectation, Property, Tapped, TestFile, check, check_run, matches, read};
 use crate::fingerprint::Prints;
 use crate::golden::{self, Records};
@@ -50,9 +51,19 @@ struct Run {
 impl Session {
     /// Runs the test in a file.
     pub fn run(&mut self, path: &Path, options: &Options) -> Outcome {
+        self.run_from(None, path, options)
+    }
+
+    /// The same with the passes of this registry, whichever the session would choose.
+    pub fn run_with(&mut self, registry: &Arc<Registry>, path: &Path, options: &Options) -> Outcome {
+        self.run_from(Some(registry), path, options)
+    }
+
+    fn run_from(&mut self, registry: Option<&Arc<Registry>>, path: &Path, options: &Options) -> Outcome {
         let start = Instant::now();
         let mut outcome = Outcome { path: path.to_owned(), ..Outcome::default() };
-        if let Err(error) = self.try_run(path, options, &mut outcome) {
+        self.digest = options.digest.then(Digest::default);
+        if let Err(error) = self.try_run(registry, path, options, &mut outcome) {
             outcome.problems.push(match error {
                 Error::Mistakes(mut mistakes) => {
                     mistakes.sort();
@@ -63,23 +74,32 @@ impl Session {
             });
         }
         outcome.warnings.extend(std::mem::take(&mut self.unfinished));
+        outcome.digest = self.digest.take().map(|digest| digest.finish());
         outcome.took = start.elapsed();
         outcome
     }
 
-    fn try_run(&mut self, path: &Path, options: &Options, outcome: &mut Outcome) -> Result<(), Error> {
-        let mut ready = self.ready(path, options, outcome)?;
+    fn try_run(
+        &mut self,
+        registry: Option<&Arc<Registry>>,
+        path: &Path,
+        options: &Options,
+        outcome: &mut Outcome,
+    ) -> Result<(), Error> {
+        let ready = self.ready(registry, path, options, outcome)?;
         outcome.about.clone_from(&ready.file.about);
         outcome.graph.clone_from(&ready.file.request.graph);
         outcome.passes = passes(&ready.plan);
         if options.isolate {
             isolate::run(self, &ready, options, outcome)?;
         } else {
-            if options.until_failure && self.fails_at_once(&mut ready, options, outcome)? {
-                return Ok(());
-            }
-            let ports = if options.for_report { written(&ready.plan) } else { ready.ports() };
-            let mut rendered = self.rendered(&ready, &ports)?;
+            let ports = match () {
+                () if options.for_report => written(&ready.plan),
+                () if options.only.is_some() => ready.ports_of_taps(),
+                () => ready.ports(),
+            };
+            let frames = &ready.file.frames;
+            let mut rendered = self.render(&ready.loaded, &ready.registry, &ports, frames, Variation::PLAIN)?;
             if options.for_report {
                 let take = |frame| untapped::take(&ready, options, frame);
                 outcome.untapped = rendered.iter_mut().flat_map(take).collect();
@@ -90,9 +110,9 @@ impl Session {
             let judged = rendered.iter().filter(|frame| options.looks_at(frame.frame));
             outcome.ports = judged.flat_map(|frame| judge.frame(frame)).collect();
             self.judged(judging);
-            let decided = options.until_failure && !outcome.ports.iter().all(PortOutcome::passed);
+            let decided = options.fail_fast && !outcome.ports.iter().all(PortOutcome::passed);
             outcome.left_out.extend(ready.left_out_by_size());
-            if !ready.resized && !decided {
+            if !ready.resized && !decided && options.only.is_none() {
                 outcome.relations = self.relations(&ready, &rendered, options)?;
             }
             attribute(&ready.plan, &Upstream::of(&ready.plan), outcome);
@@ -104,7 +124,7 @@ impl Session {
             let chosen = |port: &PortOutcome| ready.chosen.contains(&port.name) || port.state != State::Passed;
             outcome.ports.retain(chosen);
         }
-        if !ready.resized && !options.without_goldens {
+        if !ready.resized && !options.without_goldens && options.only.is_none() {
             let claimed = claimed(&ready);
             let orphans = golden::orphans(&ready.file.goldens(), &claimed);
             outcome.problems.extend(orphans.into_iter().map(Problem::Orphan));
@@ -124,43 +144,30 @@ impl Session {
         Ok(())
     }
 
-    fn rendered(&mut self, ready: &Ready, ports: &[PortRef]) -> Result<Vec<Rendered>, Error> {
-        self.render(&ready.loaded, &ready.registry, ports, &ready.file.frames, Variation::PLAIN)
-    }
-
-    /// Renders and judges the ports alone that are written by the pass whose shader is not its own, if one's is. Where they
-    /// fail, the outcome says so, and nothing after them needs to be rendered: it inherits.
-    fn fails_at_once(&mut self, ready: &mut Ready, options: &Options, outcome: &mut Outcome) -> Result<bool, Error> {
-        let Some(changed) = self.substituted().map(str::to_owned) else { return Ok(false) };
-        let kind = |tapped: &Tapped| &ready.loaded.graph.pass(tapped.port.pass).descriptor().name;
-        let own: Vec<Tapped> = ready.tapped.iter().filter(|tapped| *kind(tapped) == changed).cloned().collect();
-        let all = std::mem::replace(&mut ready.tapped, own);
-        let rendered = self.rendered(ready, &ready.ports_of_taps())?;
-        let adapter = AdapterClass::of(self.gpu());
-        let judge = Judge { ready, options, adapter, answers: &self.answers };
-        outcome.ports = rendered.iter().flat_map(|frame| judge.frame(frame)).collect();
-        ready.tapped = all;
-        // A check about another port as well is for the whole graph: it may be that one which fails.
-        let fails = outcome.ports.iter().any(PortOutcome::fails_by_itself);
-        attribute(&ready.plan, &Upstream::of(&ready.plan), outcome);
-        Ok(fails && !outcome.guilty().is_empty())
-    }
-
-    /// The registry of a test, and the kinds of the passes that it runs.
-    pub(crate) fn runs(&mut self, path: &Path) -> Result<(Arc<Registry>, BTreeSet<String>), Error> {
-        let ready = self.ready(path, &Options::default(), &mut Outcome::default())?;
+    /// The registry of a test, and the kinds (`plugin.pass`) of the passes that it runs.
+    ///
+    /// # Errors
+    /// Every mistake of the test, of its graph and scene, and of the plugins.
+    pub fn kinds(&mut self, path: &Path) -> Result<(Arc<Registry>, BTreeSet<String>), Error> {
+        let ready = self.ready(None, path, &Options::default(), &mut Outcome::default())?;
         let kinds = passes(&ready.plan).into_iter().map(|pass| pass.kind).collect();
         Ok((ready.registry, kinds))
     }
 
-    fn ready(&mut self, path: &Path, options: &Options, outcome: &mut Outcome) -> Result<Ready, Error> {
+    fn ready(
+        &mut self,
+        registry: Option<&Arc<Registry>>,
+        path: &Path,
+        options: &Options,
+        outcome: &mut Outcome,
+    ) -> Result<Ready, Error> {
         let mut out = Diagnostics::default();
         let Some(mut file) = read(path, &mut out) else { return Err(out.into()) };
         let resized = options.size.is_some() && options.size != file.request.size;
         if resized {
             file.request.size = options.size;
         }
-        let registry = self.registry(&file.request.graph)?;
+        let registry = registry.map_or_else(|| self.registry(&file.request.graph), |given| Ok(given.clone()))?;
         let Some(loaded) = load(&file.request, &registry, &mut out).filter(|_| !out.has_errors()) else {
             return Err(out.into());
         };
@@ -182,6 +189,9 @@ impl Session {
         let needed = needed(graph, &plan, &chosen);
         let chosen = chosen.into_iter().map(|tapped| tapped.name.clone()).collect();
         tapped.retain(|tapped| needed.contains(&tapped.port));
+        if let Some(kind) = &options.only {
+            tapped.retain(|tapped| graph.pass(tapped.port.pass).descriptor().name == *kind);
+        }
         Ok(Ready { file, registry, loaded, plan, tapped, chosen, records, resized })
     }
 
@@ -192,7 +202,7 @@ impl Session {
         let wanted = |name: &str| options.tap.as_ref().is_none_or(|pattern| matches(pattern, name));
         for relation in &ready.file.relations {
             let failed = |relation: &RelationOutcome| !relation.judgement.passed;
-            if options.until_failure && outcomes.iter().any(failed) {
+            if options.fail_fast && outcomes.iter().any(failed) {
                 break;
             }
             let expect: Vec<_> = relation.expect.iter().filter(|expectation| wanted(&expectation.port)).collect();

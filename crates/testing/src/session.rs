@@ -14,9 +14,9 @@ use tyndall_render::{Error, Loaded, Running};
 use tyndall_scene::Encoded;
 
 use crate::answers::Answers;
+use crate::digest::Digest;
 use crate::fingerprint::{Fingerprint, Prints, fingerprints};
 use crate::picture::Picture;
-use crate::substitute::Substitute;
 use crate::untapped::written;
 
 /// Makes the plugins of a registry.
@@ -37,16 +37,18 @@ pub struct Session {
     held: usize,
     /// What a pass took when it ran for the first time.
     costs: HashMap<Fingerprint, Duration>,
-    substitute: Option<Substitute>,
     /// Pictures that a driver has left undone.
     pub(crate) unfinished: Diagnostics,
-    pub(crate) answers: Answers,
+    /// What references on the CPU have said, to this session and to those forked from it.
+    pub(crate) answers: Arc<Answers>,
+    /// Of everything that is rendered, where somebody asks for it.
+    pub(crate) digest: Option<Digest>,
     /// What sharing has saved.
     pub saved: Saved,
 }
 
-/// What a port was made from, which port of the pass it is, and of one that depends on frames before the frame.
-pub(crate) type ResultKey = (Fingerprint, Handle<PortDescriptor>, Option<u32>);
+/// What a port was made from, and which port of the pass it is.
+type ResultKey = (Fingerprint, Handle<PortDescriptor>);
 
 /// Results that are held at most, bytes: 1 GiB. Beyond it all are let go, and sharing begins anew.
 const MOST_HELD: usize = 1 << 30;
@@ -138,11 +140,31 @@ impl Session {
             results: HashMap::new(),
             held: 0,
             costs: HashMap::new(),
-            substitute: None,
             unfinished: Diagnostics::default(),
-            answers: Answers::default(),
+            answers: Arc::default(),
+            digest: None,
             saved: Saved::default(),
         })
+    }
+
+    /// Another session on the same device. It knows all that this one has rendered and compiled so far, and keeps what it
+    /// renders and compiles to itself: for passes whose shaders will not come again.
+    #[must_use]
+    pub fn fork(&self) -> Self {
+        Self {
+            plugins: self.plugins.clone(),
+            search: self.search.clone(),
+            gpu: self.gpu.clone(),
+            registries: self.registries.clone(),
+            cache: self.cache.clone(),
+            results: self.results.clone(),
+            held: 0,
+            costs: HashMap::new(),
+            unfinished: Diagnostics::default(),
+            answers: self.answers.clone(),
+            digest: None,
+            saved: Saved::default(),
+        }
     }
 
     /// Judging begins.
@@ -180,33 +202,7 @@ impl Session {
             let registry = tyndall_render::registry(crates, &paths).map(Arc::new);
             self.registries.insert(key.clone(), registry);
         }
-        let registry = self.registries[&key].clone()?;
-        Ok(match &mut self.substitute {
-            Some(substitute) => substitute.registry(&registry),
-            None => registry,
-        })
-    }
-
-    /// From now on a shader stands in for one of a pass's own; what is rendered with it is not kept for later.
-    pub(crate) fn substitute(&mut self, substitute: Substitute) {
-        self.restore();
-        self.substitute = Some(substitute);
-    }
-
-    /// Ends that. Tells whether any port came out with other bits than from the pass's own shader.
-    pub(crate) fn restore(&mut self) -> bool {
-        let Some(substitute) = self.substitute.take() else { return false };
-        self.cache.forget(substitute.shader.fingerprint);
-        substitute.changed
-    }
-
-    /// The pass (`plugin.pass`) that runs with a shader which is not its own.
-    pub(crate) fn substituted(&self) -> Option<&str> {
-        self.substitute.as_ref().map(|substitute| substitute.pass.as_str())
-    }
-
-    fn known(&self, key: &ResultKey) -> Option<&Arc<PortData>> {
-        self.results.get(key).or_else(|| self.substitute.as_ref()?.results.get(key))
+        Ok(self.registries[&key].clone()?)
     }
 
     /// Plans a graph so that these ports can be read.
@@ -240,6 +236,10 @@ impl Session {
             frames.iter().map(|frame| self.render_missing(loaded, registry, &plan, ports, *frame)).collect()
         };
         self.saved.rendering += start.elapsed();
+        if let (Some(digest), Ok(rendered)) = (&mut self.digest, &rendered) {
+            let ports = rendered.iter().flat_map(|frame| frame.ports.values());
+            ports.for_each(|port| digest.bytes(&port.bytes));
+        }
         rendered
     }
 
@@ -268,10 +268,6 @@ impl Session {
             if frames.contains(&frame) {
                 let prints = self.prints(loaded, registry, running.executor.plan(), frame);
                 rendered.push(read_all(&running.executor, ports, frame, &prints)?);
-                // To tell what a shader that stands in changes; nobody else asks for results that remember.
-                if remembers && variation.reuse {
-                    self.keep_or_compare(loaded, running.executor.plan(), rendered.last(), &prints);
-                }
             }
         }
         running.warn_of_unfinished(&mut self.unfinished)?;
@@ -299,7 +295,7 @@ impl Session {
             let Some(planned) = plan.planned(*port) else { continue };
             let key = key(plan, &prints, planned);
             rendered.made_from.insert(*port, made_from(plan, &prints, planned));
-            match key.and_then(|key| self.known(&key)) {
+            match key.and_then(|key| self.results.get(&key)) {
                 Some(data) => drop(rendered.ports.insert(*port, data.clone())),
                 None => missing.push(*port),
             }
@@ -307,7 +303,6 @@ impl Session {
         self.saved.passes += plan.passes.len();
         if missing.is_empty() {
             self.spare(plan, &prints, &[]);
-            self.compare(loaded, plan, &rendered);
             return Ok(rendered);
         }
         let rest = Self::plan(&loaded.graph, Roots::Ports(missing.clone()), Variation::PLAIN)?;
@@ -327,7 +322,6 @@ impl Session {
             }
             rendered.ports.insert(port, data);
         }
-        self.compare(loaded, plan, &rendered);
         Ok(rendered)
     }
 
@@ -348,39 +342,10 @@ impl Session {
         self.saved.spared_time += spared.filter_map(|print| self.costs.get(print)).sum::<Duration>();
     }
 
-    fn keep_or_compare(&mut self, loaded: &Loaded, plan: &Plan, rendered: Option<&Rendered>, prints: &Prints) {
-        let Some(rendered) = rendered else { return };
-        if self.substitute.is_some() {
-            return self.compare(loaded, plan, rendered);
-        }
-        for (port, data) in &rendered.ports {
-            let key = plan.planned(*port).and_then(|planned| result_key(plan, prints, planned, rendered.frame));
-            if let Some(key) = key {
-                self.keep(key, data);
-            }
-        }
-    }
-
-    /// Holds what was rendered against what the pass's own shader made of it before.
-    fn compare(&mut self, loaded: &Loaded, plan: &Plan, rendered: &Rendered) {
-        let Some(original) = self.substitute.as_ref().and_then(|substitute| substitute.original.clone()) else {
-            return;
-        };
-        let prints = self.prints(loaded, &original, plan, rendered.frame);
-        let differs = |(port, data): (&PortRef, &Arc<PortData>)| {
-            let before = self.results.get(&result_key(plan, &prints, plan.planned(*port)?, rendered.frame)?)?;
-            Some(before.bytes != data.bytes)
-        };
-        let changed = rendered.ports.iter().any(|port| differs(port) == Some(true));
-        if let Some(substitute) = &mut self.substitute {
-            substitute.changed |= changed;
-        }
-    }
-
     /// Gives every result that is known from before, where a device takes it.
     fn give_known(&self, executor: &mut Executor, prints: &Prints) -> Result<(), Error> {
         for port in executor.plan().ports.handles() {
-            let known = key(executor.plan(), prints, port).and_then(|key| self.known(&key));
+            let known = key(executor.plan(), prints, port).and_then(|key| self.results.get(&key));
             if let Some(data) = known.filter(|_| can_be_given(executor.plan().resource(port))) {
                 executor.give(port, &data.bytes)?;
             }
@@ -389,10 +354,6 @@ impl Session {
     }
 
     fn keep(&mut self, key: ResultKey, data: &Arc<PortData>) {
-        if let Some(substitute) = &mut self.substitute {
-            substitute.results.insert(key, data.clone());
-            return;
-        }
         if self.held + data.bytes.len() > MOST_HELD {
             self.results.clear();
             self.held = 0;
@@ -456,14 +417,7 @@ impl Session {
 /// What a result is known by, where it can be shared.
 fn key(plan: &Plan, prints: &Prints, port: Handle<PlannedPort>) -> Option<ResultKey> {
     let planned = &plan.ports[port];
-    Some((prints[planned.pass?].shared()?, planned.port.port, None))
-}
-
-/// What a result is known by, also where it depends on frames before this one.
-fn result_key(plan: &Plan, prints: &Prints, port: Handle<PlannedPort>, frame: u32) -> Option<ResultKey> {
-    let planned = &plan.ports[port];
-    let print = &prints[planned.pass?];
-    Some((print.made_from, planned.port.port, print.remembers.then_some(frame)))
+    Some((prints[planned.pass?].shared()?, planned.port.port))
 }
 
 fn made_from(plan: &Plan, prints: &Prints, port: Handle<PlannedPort>) -> Option<Fingerprint> {

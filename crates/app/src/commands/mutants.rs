@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use tyndall_testing::mutants::{Figures, Hunt, PassFindings, Trouble, hunt, json, missed, table};
+use tyndall_mutants::{Figures, Hunt, PassFindings, Trouble, headline, hunt, json, missed, summary, table};
 use tyndall_testing::{Session, discover};
 
 use crate::App;
@@ -43,18 +43,13 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Mutants) -> Result<()
         tyndall_image::write_bytes(path, format!("{:#}\n", json(verb.seed, &findings)).as_bytes())?;
         terminal::line(&format!("\nwrote {}", path.display()));
     }
-    let enough = conclude(verb, &findings, start);
-    needless.map_or(enough, |mistakes| Err(mistakes.into()))
+    terminal::line(&format!("\n{}", summary(&findings, !verb.no_goldens, start.elapsed())));
+    needless.map_or_else(|| enough(verb, &findings), |mistakes| Err(mistakes.into()))
 }
 
 /// What became of the mutants of a pass, as soon as it is done.
 fn told(of_pass: &PassFindings) {
-    let Figures { made, killed, without_goldens, .. } = Figures::of([of_pass]);
-    let seconds = of_pass.took.as_secs_f64();
-    terminal::line(&format!(
-        "{}: {killed} of {made} killed, {without_goldens} without goldens  ({seconds:.1} s)",
-        of_pass.pass
-    ));
+    terminal::line(&headline(of_pass));
     missed(of_pass).iter().for_each(|line| terminal::line(line));
 }
 
@@ -74,18 +69,9 @@ fn failure(trouble: Trouble) -> Failure {
     }
 }
 
-/// The last line, and whether it is enough.
-fn conclude(verb: &Mutants, findings: &[PassFindings], start: Instant) -> Result<(), Failure> {
-    let figures = Figures::of(findings);
-    let (killed, alone) = figures.percent();
-    let Figures { made, misnamed, survived, explained, .. } = figures;
-    let seconds = start.elapsed().as_secs_f64();
-    let all = if verb.no_goldens { String::new() } else { format!("{} killed ({killed:.1} %), ", figures.killed) };
-    terminal::line(&format!(
-        "\n{made} mutants of {} passes: {all}{} without goldens ({alone:.1} %), {misnamed} laid at another pass, {survived} survived ({explained} with a reason) in {seconds:.0} s",
-        findings.iter().filter(|of_pass| of_pass.sites > 0).count(),
-        figures.without_goldens,
-    ));
+/// Whether as many are killed as was asked for.
+fn enough(verb: &Mutants, findings: &[PassFindings]) -> Result<(), Failure> {
+    let (killed, alone) = Figures::of(findings).percent();
     let enough = alone >= verb.at_least_without_goldens && (verb.no_goldens || killed >= verb.at_least);
     if enough { Ok(()) } else { Err(Failure::Reported(1)) }
 }

@@ -82,10 +82,10 @@ fn options(verb: &Test) -> Result<Options, Failure> {
         frame: verb.frame,
         isolate: verb.isolate,
         without_goldens: verb.no_goldens,
-        until_failure: false,
         size: verb.size,
         robustness,
         for_report: verb.report.is_some(),
+        ..Options::default()
     })
 }
 

@@ -1,8 +1,10 @@
 //! What became of all mutants, for people and programs.
 
+use std::time::Duration;
+
 use serde_json::{Value, json};
 
-use super::{Mutant, Nearest, PassFindings, Verdict};
+use crate::findings::{Mutant, Nearest, PassFindings, Verdict};
 
 /// Counts of mutants.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -68,6 +70,27 @@ pub fn table(findings: &[PassFindings]) -> Vec<String> {
         });
     }
     lines
+}
+
+/// What became of the mutants of a pass in one line, for people.
+pub fn headline(of_pass: &PassFindings) -> String {
+    let Figures { made, killed, without_goldens, .. } = Figures::of([of_pass]);
+    let seconds = of_pass.took.as_secs_f64();
+    format!("{}: {killed} of {made} killed, {without_goldens} without goldens  ({seconds:.1} s)", of_pass.pass)
+}
+
+/// What became of all mutants in one line, for people; whether they were shown to goldens, and how long it took.
+pub fn summary(findings: &[PassFindings], goldens: bool, took: Duration) -> String {
+    let figures = Figures::of(findings);
+    let (killed, alone) = figures.percent();
+    let Figures { made, misnamed, survived, explained, .. } = figures;
+    let all = if goldens { format!("{} killed ({killed:.1} %), ", figures.killed) } else { String::new() };
+    format!(
+        "{made} mutants of {} passes: {all}{} without goldens ({alone:.1} %), {misnamed} laid at another pass, {survived} survived ({explained} with a reason) in {:.0} s",
+        findings.iter().filter(|of_pass| of_pass.sites > 0).count(),
+        figures.without_goldens,
+        took.as_secs_f64()
+    )
 }
 
 /// Every mutant of a pass that was not killed, or by goldens only, for people.

@@ -5,8 +5,8 @@
 use std::path::PathBuf;
 
 use tempfile::TempDir;
+use tyndall_mutants::{Figures, Hunt, Mutant, PassFindings, REASONS, Trouble, Verdict, hunt, json, missed, table};
 use tyndall_plugin::SearchPath;
-use tyndall_testing::mutants::{Figures, Hunt, PassFindings, REASONS, Trouble, Verdict, hunt, json, missed, table};
 use tyndall_testing::{Options, Session};
 
 const FIRST: &str = "override extra: bool = false;
@@ -105,9 +105,8 @@ impl Folder {
 fn all(findings: &[PassFindings]) -> Vec<(String, String, String)> {
     let of_pass = |of_pass: &PassFindings| {
         let pass = of_pass.pass.clone();
-        let mutant = move |mutant: &tyndall_testing::mutants::Mutant| {
-            (pass.clone(), mutant.mutation.function.clone(), mutant.mutation.change.clone())
-        };
+        let mutant =
+            move |mutant: &Mutant| (pass.clone(), mutant.mutation.function.clone(), mutant.mutation.change.clone());
         of_pass.mutants.iter().map(mutant).collect::<Vec<_>>()
     };
     findings.iter().flat_map(of_pass).collect()

@@ -7,7 +7,7 @@ use tyndall_shader::MutationKind;
 
 /// Draws mistakes of a pass: function by function, so that a long one does not take all, and of the kind that was drawn
 /// least so far.
-pub(super) struct Draw {
+pub(crate) struct Draw {
     /// Sites that are left, by function, the functions in a drawn order.
     functions: Vec<Vec<(usize, MutationKind)>>,
     next: usize,
