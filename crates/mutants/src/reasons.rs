@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use tyndall_document::{Code, Decoder, Diagnostic, Diagnostics, Node, Place, Source, parse};
+use tyndall_document::{Decoder, Diagnostic, Diagnostics, Node, Place, Source, codes, parse};
 
-/// A reason is given for a mutant that cannot be made, or does not survive.
-pub const STALE_REASON: Code = Code("stale-reason");
-
-/// Every class of mistake that this crate reports; each has a fixture in `tests/fixtures`.
-pub const CODES: &[Code] = &[STALE_REASON];
+codes! {
+    /// Every class of mistake that this crate reports and none below it.
+    CODES:
+    /// A reason is given for a mutant that cannot be made, or does not survive.
+    STALE_REASON = "stale-reason";
+}
 
 /// The file beside a plugin's manifest.
 pub const REASONS: &str = "mutants.ron";

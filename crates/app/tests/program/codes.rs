@@ -12,6 +12,7 @@ fn declared() -> BTreeMap<&'static str, Vec<Code>> {
         ("compare", tyndall_compare::CODES.to_vec()),
         ("document", [tyndall_document::CODES, tyndall_document::SHARED_CODES].concat()),
         ("graph", tyndall_graph::CODES.to_vec()),
+        ("mutants", tyndall_mutants::CODES.to_vec()),
         ("plugin", tyndall_plugin::CODES.to_vec()),
         ("render", tyndall_render::CODES.to_vec()),
         ("scene", tyndall_scene::CODES.to_vec()),
