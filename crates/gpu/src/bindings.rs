@@ -2,19 +2,17 @@
 
 use naga::StorageAccess;
 use tyndall_graph::descriptor::{ParamDescriptor, ParamValue};
-use tyndall_graph::{Handle, Slot, Table};
+use tyndall_graph::{Handle, Slot, Table, Values};
 use tyndall_shader::{
     Linked, PARAMS, ParamKind, ParamSource, Resource, ResourceKind, SAMPLERS, SampleClass, UNFINISHED, counted,
 };
 
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::program::Setup;
 use crate::scene::SceneBuffers;
 use crate::slots::Physical;
 use crate::view::PlannedView;
-
-/// A value for each parameter of a pass.
-pub type Values = Table<ParamDescriptor, ParamValue>;
 
 /// Where a binding gets its content.
 #[derive(Debug, Clone, Copy)]
@@ -52,18 +50,16 @@ pub(crate) struct Bound<'a> {
 
 impl Bindings {
     /// Resolves every variable that the shader uses.
-    pub(crate) fn new(
-        gpu: &Gpu,
-        linked: &Linked,
-        pass: PlannedView<'_>,
-        scene: &mut SceneBuffers,
-        label: &str,
-    ) -> Result<Self, GpuError> {
+    pub(crate) fn new(setup: &mut Setup<'_>, linked: &Linked, label: &str) -> Result<Self, GpuError> {
+        let (gpu, pass) = (setup.gpu, setup.pass);
         let mut feeds = Vec::new();
         let mut entries = Vec::new();
         let (mut params, mut unfinished) = (None, None);
         for resource in &linked.resources {
-            let feed = feed(resource, pass, scene)?;
+            let feed = feed(resource, pass, setup.scene)?;
+            if let (Feed::Slot(slot), ResourceKind::StorageTexture { .. }) = (feed, &resource.kind) {
+                setup.usages[slot] |= wgpu::TextureUsages::STORAGE_BINDING;
+            }
             if let (Feed::Params, ResourceKind::Uniform { size, .. }) = (feed, &resource.kind) {
                 params = Some(ParamBlock::new(gpu, pass, *size, linked, label)?);
             }

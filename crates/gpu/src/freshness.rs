@@ -1,73 +1,45 @@
-//! Which passes must run: a result whose fingerprint has not changed, and whose memory nobody has used since, is kept.
+//! Which passes must run: a result that was made from the same as now, and whose memory nobody has used since, is kept.
 
-use std::hash::{DefaultHasher, Hash, Hasher};
+use tyndall_graph::{Digest, Handle, MadeFrom, Plan, PlannedPass, PlannedPort, Provenance, Slot, Step, Table, Values};
 
-use tyndall_graph::descriptor::ParamValue;
-use tyndall_graph::{Handle, Plan, PlannedPass, PlannedPort, Slot, Step, Table};
-
-use crate::bindings::Values;
+use crate::program::Programs;
 use crate::scene::SceneBuffers;
-use crate::setup::{Program, Programs};
 
 /// What every slot holds, and what every pass would give now.
 pub(crate) struct Freshness {
-    /// The part of a pass's fingerprint that a plan fixes.
-    fixed: Table<PlannedPass, u64>,
-    /// The scene data that a pass reads.
-    scene: Table<PlannedPass, Vec<usize>>,
+    provenance: Provenance,
+    /// The scene data that the provenance asks for.
+    scene: Vec<usize>,
     /// The pass reads a history, has side effects, or must run anyway.
     always: Table<PlannedPass, bool>,
-    /// For this frame.
-    fingerprints: Table<PlannedPass, u64>,
     /// The pass runs in this frame.
     run: Table<PlannedPass, bool>,
     /// A running pass reads the port in this frame.
     needed: Table<PlannedPort, bool>,
-    /// The port that a slot holds, and the fingerprint that this was made with.
-    holds: Table<Slot, Option<(Handle<PlannedPort>, u64)>>,
+    /// The port that a slot holds, and what it was made from.
+    holds: Table<Slot, Option<(Handle<PlannedPort>, MadeFrom)>>,
     /// The content of the port was given, and is not computed.
     given: Table<PlannedPort, bool>,
     /// The port must hold its content after the frame.
     roots: Table<PlannedPort, bool>,
-    /// Counts the frames, to make each one's histories distinct.
-    frame: u64,
 }
 
 impl Freshness {
     pub(crate) fn new(plan: &Plan, programs: &dyn Programs, scene: &mut SceneBuffers) -> Self {
-        let descriptors = || plan.passes.handles().map(|pass| plan.descriptor(pass));
-        let fixed = plan
-            .passes
-            .handles()
-            .map(|pass| {
-                let mut hasher = DefaultHasher::new();
-                let descriptor = plan.descriptor(pass);
-                (&descriptor.name, descriptor.revision).hash(&mut hasher);
-                programs.fingerprint(&descriptor.name).hash(&mut hasher);
-                for binding in plan.bindings(pass) {
-                    let slot = binding.map(|slot| &plan.slots[slot]);
-                    slot.map(|slot| slot.resource).hash(&mut hasher);
-                    slot.and_then(|slot| slot.initial()).map(|value| value.map(f32::to_bits)).hash(&mut hasher);
-                }
-                hasher.finish()
-            })
-            .collect();
-        let scene =
-            descriptors().map(|descriptor| descriptor.scene.iter().map(|name| scene.intern(name)).collect()).collect();
-        let always = descriptors().map(|descriptor| descriptor.side_effect || descriptor.remembers()).collect();
-        // What a history carries over is copied at the end of the frame, whoever else has read it.
-        let roots = plan.ports.iter().map(|port| port.root || port.carried).collect();
+        // A file that cannot be read has no content; the pass that reads it says so.
+        let file = |path: &str| Digest::of(&std::fs::read(path).unwrap_or_default());
+        let provenance = Provenance::new(plan, &|pass| programs.shaders(pass), &file);
+        let descriptors = plan.passes.handles().map(|pass| plan.descriptor(pass));
         Self {
-            fixed,
-            scene,
-            always,
-            fingerprints: plan.passes.column(0),
+            scene: provenance.scene().iter().map(|name| scene.intern(name)).collect(),
+            provenance,
+            always: descriptors.map(|descriptor| descriptor.side_effect || descriptor.remembers()).collect(),
             run: plan.passes.column(false),
             needed: plan.ports.column(false),
             holds: plan.slots.column(None),
             given: plan.ports.column(false),
-            roots,
-            frame: 0,
+            // What a history carries over is copied at the end of the frame, whoever else has read it.
+            roots: plan.ports.iter().map(|port| port.root || port.carried).collect(),
         }
     }
 
@@ -87,7 +59,7 @@ impl Freshness {
     /// The port's slot holds what was put there from outside; its pass need not run for it any more.
     pub(crate) fn give(&mut self, plan: &Plan, port: Handle<PlannedPort>) {
         self.given[port] = true;
-        self.holds[plan.ports[port].slot] = Some((port, 0));
+        self.holds[plan.ports[port].slot] = Some((port, MadeFrom::default()));
     }
 
     /// Whether this pass runs in this frame.
@@ -107,11 +79,9 @@ impl Freshness {
         plan: &Plan,
         values: &Table<PlannedPass, Values>,
         scene: &SceneBuffers,
-        programs: &Table<PlannedPass, Box<dyn Program>>,
         everything: bool,
     ) -> usize {
-        self.frame += 1;
-        self.fingerprint(plan, values, scene, programs);
+        self.provenance.update(plan, values, |index| scene.version(self.scene[index]));
         if everything {
             self.run.fill(true);
             return self.run.len();
@@ -126,38 +96,6 @@ impl Freshness {
             }
         }
         self.run.iter().filter(|run| **run).count()
-    }
-
-    /// Sets the fingerprint of every pass from those upstream, its parameters and the scene data that it reads.
-    fn fingerprint(
-        &mut self,
-        plan: &Plan,
-        values: &Table<PlannedPass, Values>,
-        scene: &SceneBuffers,
-        programs: &Table<PlannedPass, Box<dyn Program>>,
-    ) {
-        for index in plan.passes.handles() {
-            let mut hasher = DefaultHasher::new();
-            self.fixed[index].hash(&mut hasher);
-            programs[index].fingerprint().hash(&mut hasher);
-            for value in &values[index] {
-                hash_value(value, &mut hasher);
-            }
-            for &data in &self.scene[index] {
-                scene.version(data).hash(&mut hasher);
-            }
-            for source in plan.sources(index).iter().flatten() {
-                source.hash(&mut hasher);
-                if let Some(producer) = plan.ports[*source].pass {
-                    self.fingerprints[producer].hash(&mut hasher);
-                }
-            }
-            // What a history holds has no fingerprint; the number of the frame stands for it.
-            if self.always[index] {
-                self.frame.hash(&mut hasher);
-            }
-            self.fingerprints[index] = hasher.finish();
-        }
     }
 
     /// Marks every pass that must run because something that runs, or a root, reads a port which is not there.
@@ -194,8 +132,8 @@ impl Freshness {
     fn valid(&self, plan: &Plan, port: Handle<PlannedPort>) -> bool {
         let planned = &plan.ports[port];
         let Some(pass) = planned.pass else { return true };
-        self.holds[planned.slot].is_some_and(|(held, fingerprint)| {
-            held == port && (self.given[port] || fingerprint == self.fingerprints[pass])
+        self.holds[planned.slot].is_some_and(|(held, made_from)| {
+            held == port && (self.given[port] || self.provenance.of(pass).repeatable() == Some(made_from))
         })
     }
 
@@ -232,19 +170,9 @@ impl Freshness {
                 && self.run[pass]
             {
                 for port in plan.outputs_of(pass) {
-                    self.holds[plan.ports[port].slot] = Some((port, self.fingerprints[pass]));
+                    self.holds[plan.ports[port].slot] = Some((port, self.provenance.of(pass).made_from));
                 }
             }
         }
-    }
-}
-
-fn hash_value(value: &ParamValue, hasher: &mut impl Hasher) {
-    match value {
-        ParamValue::Bool(on) => on.hash(hasher),
-        ParamValue::Integer(number) => number.hash(hasher),
-        ParamValue::Float(number) => number.to_bits().hash(hasher),
-        ParamValue::Vector(numbers) => numbers.iter().for_each(|number| number.to_bits().hash(hasher)),
-        ParamValue::Choice(word) | ParamValue::File(word) => word.hash(hasher),
     }
 }

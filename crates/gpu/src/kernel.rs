@@ -7,7 +7,7 @@ use tyndall_shader::Linked;
 
 use crate::bindings::{Bindings, constants};
 use crate::error::GpuError;
-use crate::setup::Setup;
+use crate::program::Setup;
 use crate::slots::texture_format;
 
 /// A compute shader with everything that it is bound to.
@@ -29,7 +29,7 @@ impl Kernel {
         let workgroup = found.map(|point| point.workgroup_size).filter(|size| size.iter().all(|threads| *threads > 0));
         let workgroup =
             workgroup.ok_or_else(|| setup.pass.refuse(format!("its shader has no compute entry point `{entry}`")))?;
-        let bindings = Bindings::new(setup.gpu, linked, setup.pass, setup.scene, &label)?;
+        let bindings = Bindings::new(setup, linked, &label)?;
         let constants = constants(linked, setup.pass, setup.values, setup.scene);
         let constants: Vec<(&str, f64)> = constants.iter().map(|(name, value)| (name.as_str(), *value)).collect();
         let pipeline = setup.cache.compute(setup.gpu, linked, (&label, entry), bindings.layout(), &constants)?;
@@ -80,7 +80,7 @@ impl Raster {
     ) -> Result<Self, GpuError> {
         let label = setup.pass.descriptor().name.clone();
         let module = setup.cache.module(setup.gpu, linked, &label)?;
-        let bindings = Bindings::new(setup.gpu, linked, setup.pass, setup.scene, &label)?;
+        let bindings = Bindings::new(setup, linked, &label)?;
         let constants = constants(linked, setup.pass, setup.values, setup.scene);
         let constants: Vec<(&str, f64)> = constants.iter().map(|(name, value)| (name.as_str(), *value)).collect();
         let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };

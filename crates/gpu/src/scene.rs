@@ -1,6 +1,6 @@
 //! Scene data on the GPU: buffers by opaque names, each with the version of its content.
 
-use std::hash::{DefaultHasher, Hasher};
+use tyndall_graph::Digest;
 
 use crate::device::Gpu;
 use crate::error::{GpuError, bytes};
@@ -41,7 +41,7 @@ impl SceneBuffers {
     /// changes and a pipeline was made for it; what wgpu reports.
     pub fn set(&mut self, gpu: &Gpu, name: &str, content: &[u8]) -> Result<(), GpuError> {
         let index = self.intern(name);
-        let version = hash(content);
+        let version = Digest::of(content);
         let item = &mut self.items[index];
         if item.buffer.is_some() && item.version == version && item.bytes == content.len() as u64 {
             return Ok(());
@@ -129,10 +129,4 @@ fn create(gpu: &Gpu, name: &str, size: u64) -> Result<wgpu::Buffer, GpuError> {
             mapped_at_creation: false,
         })
     })
-}
-
-fn hash(content: &[u8]) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    hasher.write(content);
-    hasher.finish()
 }

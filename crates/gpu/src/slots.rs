@@ -20,6 +20,19 @@ impl Physical {
             Physical::Buffer(_) => None,
         }
     }
+
+    /// Copies the whole content to another of an equal resource: the planner copies between no others.
+    pub(crate) fn copy(&self, to: &Self, encoder: &mut wgpu::CommandEncoder) {
+        match (self, to) {
+            (Physical::Texture { texture: from, .. }, Physical::Texture { texture: to, .. }) => {
+                encoder.copy_texture_to_texture(from.as_image_copy(), to.as_image_copy(), from.size());
+            }
+            (Physical::Buffer(from), Physical::Buffer(to)) => {
+                encoder.copy_buffer_to_buffer(from, 0, to, 0, from.size())
+            }
+            (Physical::Texture { .. }, Physical::Buffer(_)) | (Physical::Buffer(_), Physical::Texture { .. }) => {}
+        }
+    }
 }
 
 /// wgpu's name of a format.
@@ -48,9 +61,26 @@ pub(crate) fn view_dimension(dimension: Dimension) -> wgpu::TextureViewDimension
     }
 }
 
+/// What the textures of a plan's slots allow whatever passes do with them, because it costs nothing: to be read and copied.
+/// Storing and drawing keep drivers from compressing a texture, so they are added where a pass does so. A rasteriser's depth
+/// buffer can be filled by drawing alone.
+pub(crate) fn least_usages(plan: &Plan) -> Table<Slot, wgpu::TextureUsages> {
+    let usages = wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::COPY_DST | wgpu::TextureUsages::TEXTURE_BINDING;
+    let of_slot = |slot: &Slot| match slot.resource {
+        Resource::Texture { format: Format::Depth32Float, .. } => usages | wgpu::TextureUsages::RENDER_ATTACHMENT,
+        _ => usages,
+    };
+    plan.slots.iter().map(of_slot).collect()
+}
+
 /// Creates every slot of a plan, labelled with the ports that live in it.
-pub(crate) fn create_all(gpu: &Gpu, plan: &Plan) -> Result<Table<Slot, Physical>, GpuError> {
-    plan.slots.entries().map(|(index, slot)| create(gpu, &slot_name(plan, index), slot)).collect()
+pub(crate) fn create_all(
+    gpu: &Gpu,
+    plan: &Plan,
+    usages: &Table<Slot, wgpu::TextureUsages>,
+) -> Result<Table<Slot, Physical>, GpuError> {
+    let slots = plan.slots.entries();
+    slots.map(|(slot, planned)| create(gpu, &slot_name(plan, slot), &planned.resource, usages[slot])).collect()
 }
 
 /// The ports that live in a slot, `a.x | b.y`; what else it is where none does.
@@ -63,8 +93,8 @@ pub(crate) fn slot_name(plan: &Plan, index: Handle<Slot>) -> String {
     }
 }
 
-fn create(gpu: &Gpu, label: &str, slot: &Slot) -> Result<Physical, GpuError> {
-    match slot.resource {
+fn create(gpu: &Gpu, label: &str, resource: &Resource, usage: wgpu::TextureUsages) -> Result<Physical, GpuError> {
+    match *resource {
         Resource::Texture { dimension, format, width, height, depth_or_layers } => {
             let descriptor = wgpu::TextureDescriptor {
                 label: Some(label),
@@ -76,7 +106,7 @@ fn create(gpu: &Gpu, label: &str, slot: &Slot) -> Result<Physical, GpuError> {
                     Dimension::D2 | Dimension::D2Array => wgpu::TextureDimension::D2,
                 },
                 format: texture_format(format),
-                usage: usages(slot),
+                usage,
                 view_formats: &[],
             };
             let view = wgpu::TextureViewDescriptor {
@@ -102,17 +132,6 @@ fn create(gpu: &Gpu, label: &str, slot: &Slot) -> Result<Physical, GpuError> {
                 mapped_at_creation: false,
             }))
         }),
-    }
-}
-
-/// Whoever writes a port may store into it or draw into it, and read its own outputs in a later step; so a slot has
-/// every usage that its format allows.
-fn usages(slot: &Slot) -> wgpu::TextureUsages {
-    let usages = wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::COPY_DST | wgpu::TextureUsages::TEXTURE_BINDING;
-    match slot.resource {
-        Resource::Texture { format: Format::Depth32Float, .. } => usages | wgpu::TextureUsages::RENDER_ATTACHMENT,
-        Resource::Texture { dimension: Dimension::D3, .. } => usages | wgpu::TextureUsages::STORAGE_BINDING,
-        _ => usages | wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
     }
 }
 

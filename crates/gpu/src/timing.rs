@@ -2,10 +2,12 @@
 
 use std::time::{Duration, Instant};
 
-use tyndall_graph::{Handle, PlannedPass};
+use tyndall_graph::{Handle, Plan, PlannedPass, Table};
 
+use crate::commands::Commands;
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::executor::FrameOptions;
 use crate::readback::read_bytes;
 
 /// Pairs of timestamps that one frame can hold.
@@ -25,6 +27,120 @@ pub enum Timing {
     /// Every pass that runs, each submitted by itself and waited for: from submission to completion, into the counters.
     /// No more than an estimate, which holds what a submission costs as well.
     Each,
+}
+
+/// Counts and times of one pass.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct PassCounters {
+    /// Frames in which it ran.
+    pub runs: u64,
+    /// CPU time to record it in the last frame that measured, in microseconds.
+    pub cpu_us: f64,
+    /// Time from submission to completion in the last frame that timed each pass, in microseconds.
+    pub alone_us: f64,
+}
+
+/// Measures frames and passes, each frame in the way that is asked for.
+pub(crate) struct Clock {
+    /// None where the adapter has no timestamps.
+    stamps: Option<Stamps>,
+    counters: Table<PlannedPass, PassCounters>,
+    options: FrameOptions,
+    watch: Stopwatch,
+    /// When the recording of the pass began.
+    began: Option<Instant>,
+}
+
+impl Clock {
+    pub fn new(gpu: &Gpu, plan: &Plan) -> Result<Self, GpuError> {
+        Ok(Self {
+            stamps: Stamps::new(gpu)?,
+            counters: plan.passes.column(PassCounters::default()),
+            options: FrameOptions::default(),
+            watch: Stopwatch::default(),
+            began: None,
+        })
+    }
+
+    pub fn counters(&self) -> &Table<PlannedPass, PassCounters> {
+        &self.counters
+    }
+
+    /// Before the first command of a frame.
+    pub fn begin_frame(&mut self, options: FrameOptions, commands: &mut Commands<'_>) {
+        (self.options, self.watch) = (options, Stopwatch::default());
+        if let Some(stamps) = &mut self.stamps {
+            stamps.reset();
+            if options.timing == Timing::Frame {
+                stamps.mark(&mut commands.encoder);
+            }
+        }
+    }
+
+    /// Before a pass is recorded. One that is timed is alone on the GPU: else a driver that works ahead or behind counts other
+    /// passes too.
+    pub fn begin_pass(&mut self, pass: Handle<PlannedPass>, commands: &mut Commands<'_>) -> Result<(), GpuError> {
+        if self.options.timing == Timing::Each || self.is_timed(pass) {
+            commands.submit();
+            commands.gpu.wait()?;
+        }
+        self.began = self.options.cpu_times.then(Instant::now);
+        Ok(())
+    }
+
+    /// What the dispatches and draws of a pass are stamped with, if they are.
+    pub fn stamps(&mut self, pass: Handle<PlannedPass>) -> Option<&mut Stamps> {
+        if self.is_timed(pass) { self.stamps.as_mut() } else { None }
+    }
+
+    /// After a pass was recorded.
+    pub fn end_pass(&mut self, pass: Handle<PlannedPass>, commands: &mut Commands<'_>) -> Result<(), GpuError> {
+        let counters = &mut self.counters[pass];
+        counters.runs += 1;
+        if let Some(began) = self.began {
+            counters.cpu_us = began.elapsed().as_secs_f64() * 1e6;
+        }
+        if self.options.timing == Timing::Each {
+            let start = Instant::now();
+            commands.submit();
+            commands.gpu.wait()?;
+            counters.alone_us = start.elapsed().as_secs_f64() * 1e6;
+        }
+        if self.is_timed(pass) {
+            self.watch.start();
+            commands.submit();
+            self.watch.stop(commands.gpu)?;
+        }
+        Ok(())
+    }
+
+    /// Submits the last commands of a frame.
+    pub fn end_frame(&mut self, mut commands: Commands<'_>) {
+        let whole = self.options.timing == Timing::Frame;
+        if let Some(stamps) = &mut self.stamps {
+            if whole {
+                stamps.mark(&mut commands.encoder);
+            }
+            stamps.resolve(&mut commands.encoder);
+        }
+        if whole {
+            self.watch.start();
+        }
+        commands.finish();
+    }
+
+    /// GPU time of what was timed in the last frame. Waits for the GPU.
+    pub fn microseconds(&mut self, gpu: &Gpu) -> Result<Option<f64>, GpuError> {
+        match (&self.stamps, self.options.timing) {
+            (None, _) | (_, Timing::Off | Timing::Each) => Ok(None),
+            (Some(_), _) if gpu.is_software() => self.watch.microseconds(gpu),
+            (Some(stamps), _) => stamps.microseconds(gpu),
+        }
+    }
+
+    fn is_timed(&self, pass: Handle<PlannedPass>) -> bool {
+        self.options.timing == Timing::Pass(pass)
+    }
 }
 
 /// Time from submission to completion, for software adapters: the processor does the work there, and their timestamps

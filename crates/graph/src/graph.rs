@@ -74,6 +74,20 @@ pub enum ParamSetting {
     Time,
 }
 
+impl ParamSetting {
+    /// The value in the frame of this number, at this time in seconds.
+    pub fn value(&self, frame: u32, seconds: f64) -> ParamValue {
+        match self {
+            Self::Value(value) => value.clone(),
+            Self::Frame => ParamValue::Integer(i64::from(frame)),
+            Self::Time => ParamValue::Float(seconds),
+        }
+    }
+}
+
+/// A value for each parameter of a pass.
+pub type Values = Table<ParamDescriptor, ParamValue>;
+
 /// An edge of the graph.
 #[derive(Debug, Clone)]
 pub struct Connection {

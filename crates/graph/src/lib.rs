@@ -15,6 +15,7 @@
 mod catalogue;
 pub mod codes;
 pub mod descriptor;
+mod digest;
 mod explain;
 mod file;
 mod graph;
@@ -22,6 +23,7 @@ mod handle;
 mod names;
 mod overrides;
 mod plan;
+mod provenance;
 pub mod show;
 mod signature;
 mod validate;
@@ -29,14 +31,16 @@ mod wiring;
 
 pub use catalogue::{Catalogue, PictureSize};
 pub use codes::CODES;
+pub use digest::Digest;
 pub use explain::explain;
 pub use file::{GraphFile, InputEntry, OutputEntry, ParamEntry, PassEntry, Spanned, Switch, Text, read};
-pub use graph::{Connection, Graph, GraphParam, ParamRef, ParamSetting, Pass, PortRef};
+pub use graph::{Connection, Graph, GraphParam, ParamRef, ParamSetting, Pass, PortRef, Values};
 pub use handle::{Handle, Handles, Segment, Slice, Table};
 pub use overrides::{Override, Overrides};
 pub use plan::{
     Bytes, ClassBytes, CullReason, Culled, Keep, Order, Plan, PlanOptions, PlannedPass, PlannedPort, Resource, Roots,
-    Slot, SlotKind, Step, Until, Usages, plan,
+    Slot, SlotKind, Step, Until, plan,
 };
+pub use provenance::{MadeFrom, Origin, Provenance};
 pub use signature::DescriptorError;
 pub use validate::{validate, validate_with};

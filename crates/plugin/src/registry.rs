@@ -1,14 +1,12 @@
 //! Every pass that a graph can use, linked and checked, and how to make each ready.
 
 use std::collections::BTreeMap;
-use std::hash::Hasher;
 use std::sync::Arc;
 
-use siphasher::sip::SipHasher13;
 use tyndall_document::{Diagnostic, Diagnostics, Place, near};
 use tyndall_gpu::{GpuError, Program, Programs, Setup};
 use tyndall_graph::descriptor::{PRESET, PassDescriptor};
-use tyndall_graph::{Catalogue, PictureSize};
+use tyndall_graph::{Catalogue, Digest, PictureSize};
 use tyndall_shader::{Library, Linked, check_all, link};
 
 use crate::codes::{BAD_DESCRIPTOR, DUPLICATE_PLUGIN, MISSING_SHADER};
@@ -148,7 +146,7 @@ impl Programs for Registry {
         }
     }
 
-    fn fingerprint(&self, pass: &str) -> u64 {
+    fn shaders(&self, pass: &str) -> u64 {
         self.passes.get(pass).map_or(0, |pass| pass.fingerprint)
     }
 }
@@ -303,13 +301,13 @@ impl Builder<'_> {
 
 /// Of the shaders, each in its place, and of what the manifest says they run over.
 fn fingerprint(shaders: &Shaders, make: &Make) -> u64 {
-    let mut hasher = SipHasher13::new();
-    for (file, linked) in shaders.0.iter().collect::<BTreeMap<_, _>>() {
-        hasher.write(file.as_bytes());
-        hasher.write(&linked.fingerprint.to_le_bytes());
+    let mut digest = Digest::default();
+    for (file, linked) in &shaders.0 {
+        digest.text(file);
+        digest.number(linked.fingerprint);
     }
     if let Make::Dispatch { over, .. } = make {
-        hasher.write(format!("{over:?}").as_bytes());
+        digest.text(&format!("{over:?}"));
     }
-    hasher.finish()
+    digest.finish()
 }

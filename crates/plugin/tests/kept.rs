@@ -23,6 +23,14 @@ fn runs(executor: &Executor) -> Vec<(String, u64)> {
     counters.map(|(pass, counters)| (executor.plan().pass_name(pass).to_owned(), counters.runs)).collect()
 }
 
+/// The plan has said which passes run once, and which in every frame.
+fn ran_as_planned(executor: &Executor, frames: u64) {
+    for (pass, counters) in executor.counters().entries() {
+        let planned = if executor.plan().passes[pass].volatile { frames } else { 1 };
+        assert_eq!(counters.runs, planned, "runs of `{}`", executor.plan().pass_name(pass));
+    }
+}
+
 #[test]
 fn only_tone_mapping_runs_again_where_only_its_exposure_changes() {
     let (gpu, registry, scene) = (gpu(), registry(&[]), scene(LIGHTS));
@@ -51,6 +59,7 @@ fn only_tone_mapping_runs_again_where_only_its_exposure_changes() {
     for (pass, runs) in runs(&kept) {
         assert_eq!(runs, if pass == "display" { 10 } else { 1 }, "runs of `{pass}`");
     }
+    ran_as_planned(&kept, 10);
 }
 
 #[test]
@@ -75,6 +84,7 @@ fn a_scene_that_moves_runs_its_readers_alone() {
     for (pass, runs) in runs(&kept) {
         assert_eq!(runs, if pass == "surfaces" { 1 } else { 6 }, "runs of `{pass}`");
     }
+    ran_as_planned(&kept, 6);
 }
 
 /// The passes of `surface_radiance` that make tables, and what reads them.

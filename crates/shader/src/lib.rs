@@ -18,7 +18,7 @@
 //! var radiance: texture_storage_2d<rgba32float, write>;   // output port
 //! ```
 //! No `@group`, no `@binding`, no `@id`: [`link`] assigns `@group(0) @binding(n)` to the variables that some entry
-//! point uses, in the order of naga's list of globals; all others are dropped from the module. The value of an
+//! point uses, in the order of their names; all others are dropped from the module. The value of an
 //! `override` is given when the pipeline is made, as wgpu's pipeline constant of the same name. One named after a list of
 //! the scene (`override lights_count: u32`) is its element count, see [`counted`].
 //!
@@ -32,6 +32,7 @@ mod guard;
 mod library;
 mod link;
 mod map;
+mod meaning;
 mod mutate;
 mod naming;
 mod params;

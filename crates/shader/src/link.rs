@@ -18,19 +18,18 @@
 //! what no entry point uses, and the rest is numbered and validated once more: wgpu gets the smallest module, and an
 //! unused variable of an imported file needs no binding.
 
-use std::hash::Hasher;
 use std::sync::Arc;
 
 use naga::compact::{KeepUnused, compact};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Module, ResourceBinding};
-use siphasher::sip::SipHasher13;
 use tyndall_document::{Diagnostic, Place, Source};
 
 use crate::assemble::{Assembly, assemble};
 use crate::guard::guarded;
 use crate::library::Library;
 use crate::map::Map;
+use crate::meaning::fingerprint;
 use crate::params::{Param, params};
 use crate::reflect::{EntryPoint, Resource, entry_points, is_resource, resources};
 use crate::{codes, errors, usage};
@@ -56,7 +55,8 @@ pub struct Linked {
     pub params: Vec<Param>,
     /// Variables and overrides of the root that no entry point uses.
     pub unused: Vec<Unused>,
-    /// Of the linked text; the same in every process, with every toolchain.
+    /// Of what its entry points do: comments and what nobody uses do not count. The same in every process, with every
+    /// toolchain.
     pub fingerprint: u64,
     pub(crate) map: Map,
 }
@@ -132,10 +132,16 @@ fn module(assembly: &Assembly, library: &Library) -> Result<Valid, Box<Diagnosti
     Ok((module, info, unused))
 }
 
-/// Numbers the resources, in the order of the arena.
+/// Numbers the resources, in the order of their names: that of the arena depends on what else stands in the text.
 fn bind(module: &mut Module) {
-    let resources = module.global_variables.iter_mut().filter(|(_, variable)| is_resource(variable));
-    for (binding, (_, variable)) in (0..).zip(resources) {
+    let mut resources: Vec<_> = module
+        .global_variables
+        .iter_mut()
+        .map(|(_, variable)| variable)
+        .filter(|variable| is_resource(variable))
+        .collect();
+    resources.sort_by(|a, b| a.name.cmp(&b.name));
+    for (binding, variable) in (0..).zip(resources) {
         variable.binding = Some(ResourceBinding { group: 0, binding });
     }
 }
@@ -171,8 +177,6 @@ fn finish(
     if !problems.is_empty() {
         return Err(problems);
     }
-    let mut hasher = SipHasher13::new();
-    hasher.write(assembly.text.as_bytes());
     Ok(Linked {
         entry_points: entry_points(&module, &info, &resources),
         module,
@@ -180,7 +184,7 @@ fn finish(
         resources,
         params,
         unused,
-        fingerprint: hasher.finish(),
+        fingerprint: fingerprint(&assembly.text),
         map: assembly.map,
     })
 }

@@ -186,6 +186,7 @@ pub fn resources(module: &Module, info: &ModuleInfo, map: &Map, problems: &mut V
             kind,
         });
     }
+    found.sort_by_key(|resource| resource.binding);
     found
 }
 

@@ -103,7 +103,7 @@ pub fn scan(source: &Arc<Source>) -> Scan {
 
 /// Follows `fn NAME`, `struct NAME`, `var<…> NAME` and their like.
 #[derive(Default)]
-struct Declaration {
+pub struct Declaration {
     /// A keyword that declares stands before.
     awaited: bool,
     /// Open `<` of a `var<…>`.
@@ -112,7 +112,7 @@ struct Declaration {
 
 impl Declaration {
     /// Takes a word; gives it back where it is the name of a declaration at module scope.
-    fn word<'t>(&mut self, word: &'t str, depth: usize) -> Option<&'t str> {
+    pub fn word<'t>(&mut self, word: &'t str, depth: usize) -> Option<&'t str> {
         if depth > 0 || self.angles > 0 {
             return None;
         }
@@ -124,7 +124,8 @@ impl Declaration {
         None
     }
 
-    fn mark(&mut self, mark: u8) {
+    /// Takes a mark.
+    pub fn mark(&mut self, mark: u8) {
         match mark {
             b'<' if self.awaited => self.angles += 1,
             b'>' => self.angles = self.angles.saturating_sub(1),

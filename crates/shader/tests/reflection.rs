@@ -144,13 +144,19 @@ fn layouts_of_a_module_can_be_read() {
 }
 
 #[test]
-fn the_fingerprint_is_that_of_all_files() {
-    let text = "#import sample\n@compute @workgroup_size(1) fn main() {}";
-    let (first, again) = (linked(text).fingerprint, linked(text).fingerprint);
-    assert_eq!(first, again);
-    let mut changed = Library::default();
-    changed.insert("sample", Source::new("sample.wgsl", format!("{SAMPLE} ")));
-    assert_ne!(first, link(&Source::new("pass.wgsl", text), &changed).unwrap().fingerprint);
+fn the_fingerprint_is_of_what_is_used_of_all_files() {
+    let text = "#import sample\nvar x: texture_2d<f32>; var y: sampler; var z: texture_storage_2d<r32float, write>;
+        @compute @workgroup_size(1) fn main() { textureStore(z, vec2(0), outer(x, y)); }";
+    let with = |sample: String| {
+        let mut library = Library::default();
+        library.insert("sample", Source::new("sample.wgsl", sample));
+        link(&Source::new("pass.wgsl", text), &library).unwrap().fingerprint
+    };
+    let first = linked(text).fingerprint;
+    assert_eq!(first, with(SAMPLE.to_owned()));
+    assert_eq!(first, with(format!("// Nothing new.\n{SAMPLE} fn idle() -> u32 {{ return steps; }}")));
+    assert_eq!(first, with(SAMPLE.replace("spare: f32 = 2.0", "spare: f32 = 3.0")));
+    assert_ne!(first, with(SAMPLE.replace("vec2(0.5)", "vec2(0.25)")));
     let files: Vec<_> = linked(text).sources().map(|source| source.name().to_owned()).collect();
     assert_eq!(files, ["pass.wgsl", "sample.wgsl"]);
 }

@@ -1,17 +1,22 @@
 //! Blessing: what was rendered becomes what is expected.
 
 use std::collections::BTreeMap;
+use std::path::Path;
+
+use tyndall_graph::MadeFrom;
 
 use crate::adapter::AdapterClass;
 use crate::blame::Upstream;
-use crate::golden::{self, Record};
+use crate::golden::{self, NotWritten, Record, Records};
 use crate::options::Options;
 use crate::outcome::{GOLDEN, Outcome, PortOutcome, Problem, State};
+use crate::picture::Picture;
 use crate::run::Ready;
 use crate::session::Rendered;
 
-/// Writes the goldens that are missing, different or stale, and drops those that no tap claims. A golden is written
-/// only where everything else that the test says of its port holds.
+/// Writes the goldens that are missing or different, and drops those that no tap claims. A golden is written only where
+/// everything else that the test says of its port holds. Of one that is stale and still right, what it was made from is
+/// recorded anew, and its picture stays as it is.
 pub(crate) fn run(
     ready: &Ready,
     rendered: &[Rendered],
@@ -55,25 +60,13 @@ pub(crate) fn run(
             let tapped = ready.tapped.iter().find(|tapped| tapped.name == port.name)?;
             frame.made_from.get(&tapped.port).copied().flatten()
         });
-        let after = picture.figures();
-        let (figures, content) = match &port.expected {
-            Some(before) => (judged.figures.as_str(), format!("before: {}\n    after:  {after}", before.figures())),
-            None => ("new", after),
+        let written = match judged.passed {
+            true => record_anew(&folder, port, picture, made_from, &mut records),
+            false => write_picture(&folder, port, picture, (adapter, made_from), &mut records),
         };
-        let written = golden::write(&folder, &port.key, picture).and_then(|path| {
-            let record = Record::new(&path, adapter, made_from)?;
-            records.set(&port.key, record);
-            records.write(&folder)?;
-            Ok(path)
-        });
         match written {
-            Ok(path) => {
-                let stale = if port.stale.is_empty() {
-                    String::new()
-                } else {
-                    format!("; {} had changed", port.stale.join(", "))
-                };
-                blessed.push(format!("blessed {}: {figures}{stale}\n    {content}", path.display()));
+            Ok(line) => {
+                blessed.push(line);
                 port.checks[at].judgement.passed = true;
                 port.stale.clear();
                 if port.passed() {
@@ -93,6 +86,49 @@ pub(crate) fn run(
         drop_orphans(ready, &mut records, outcome, &mut blessed);
     }
     outcome.blessed = blessed;
+}
+
+/// Records what a golden that is still right was made from now; its picture stays.
+fn record_anew(
+    folder: &Path,
+    port: &PortOutcome,
+    picture: &Picture,
+    made_from: Option<MadeFrom>,
+    records: &mut Records,
+) -> Result<String, NotWritten> {
+    let path = folder.join(golden::file_name(&port.key, picture.class));
+    let adapter = records.get(&port.key).map_or(AdapterClass::Other, |before| before.adapter);
+    records.set(&port.key, Record::new(&path, adapter, made_from)?);
+    records.write(folder)?;
+    Ok(format!(
+        "recorded anew {}: {} had changed, and the picture is still right",
+        path.display(),
+        port.stale.join(", ")
+    ))
+}
+
+/// Writes a picture as the golden of a port.
+fn write_picture(
+    folder: &Path,
+    port: &PortOutcome,
+    picture: &Picture,
+    (adapter, made_from): (AdapterClass, Option<MadeFrom>),
+    records: &mut Records,
+) -> Result<String, NotWritten> {
+    let after = picture.figures();
+    let golden = port.checks.iter().find(|check| check.what == GOLDEN).map(|check| check.judgement.figures.as_str());
+    let (figures, content) = match &port.expected {
+        Some(before) => (golden.unwrap_or_default(), format!("before: {}\n    after:  {after}", before.figures())),
+        None => ("new", after),
+    };
+    let path = golden::write(folder, &port.key, picture)?;
+    records.set(&port.key, Record::new(&path, adapter, made_from)?);
+    records.write(folder)?;
+    let stale = match port.stale[..] {
+        [] => String::new(),
+        _ => format!("; {} had changed", port.stale.join(", ")),
+    };
+    Ok(format!("blessed {}: {figures}{stale}\n    {content}", path.display()))
 }
 
 /// Passes whose ports are not to be blessed, each with the reason: what is wrong for another reason than its golden does
@@ -127,7 +163,7 @@ fn refused(ready: &Ready, outcome: &Outcome) -> BTreeMap<String, String> {
     refused
 }
 
-fn drop_orphans(ready: &Ready, records: &mut golden::Records, outcome: &mut Outcome, blessed: &mut Vec<String>) {
+fn drop_orphans(ready: &Ready, records: &mut Records, outcome: &mut Outcome, blessed: &mut Vec<String>) {
     let folder = ready.file.goldens();
     let claimed = crate::run::claimed(ready);
     for orphan in golden::orphans(&folder, &claimed).into_iter().filter(|path| golden::may_be_dropped(path)) {

@@ -2,8 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use tyndall_graph::descriptor::ParamValue;
-use tyndall_graph::{Handle, ParamSetting, Plan, PlannedPort, PortRef};
+use tyndall_graph::{Handle, Plan, PlannedPort, PortRef};
 use tyndall_image::Image;
 use tyndall_plugin::{ReferenceInput, Registry};
 use tyndall_render::Loaded;
@@ -172,11 +171,6 @@ impl Computing<'_> {
             .zip(plan.bindings(position))
             .filter_map(|(port, slot)| Some((port.name.as_str(), plan.slots[(*slot)?].resource)));
         let frame = rendered.frame;
-        let value = |setting: &ParamSetting| match setting {
-            ParamSetting::Value(value) => value.clone(),
-            ParamSetting::Frame => ParamValue::Float(f64::from(frame)),
-            ParamSetting::Time => ParamValue::Float(f64::from(frame) / tyndall_gpu::FRAMES_PER_SECOND),
-        };
         let params = descriptor.params.iter().zip(plan.params(position));
         let (time, aspect) = moment(plan, frame);
         let scene = self.loaded.scene.as_ref();
@@ -186,7 +180,7 @@ impl Computing<'_> {
         let input = ReferenceInput {
             inputs,
             resources: resources.collect(),
-            params: params.map(|(param, setting)| (param.name.as_str(), value(setting))).collect(),
+            params: params.map(|(param, setting)| (param.name.as_str(), setting.value(frame, time))).collect(),
             scene: scene.as_ref(),
             surfaces: surfaces.as_ref(),
         };

@@ -7,21 +7,20 @@ use std::time::Instant;
 
 use tyndall_document::Diagnostics;
 use tyndall_graph::descriptor::PortDescriptor;
-use tyndall_graph::{Graph, Handle, Pass, Plan, PlannedPass, PlannedPort, PortRef, Roots};
+use tyndall_graph::{Digest, Graph, Handle, Pass, Plan, PlannedPass, PlannedPort, PortRef, Roots};
 use tyndall_plugin::Registry;
 use tyndall_render::{Error, Loaded, load};
 
 use crate::adapter::AdapterClass;
 use crate::blame::{Upstream, attribute};
-use crate::digest::Digest;
 use crate::file::{Change, Expectation, Property, Tapped, TestFile, check, check_run, matches, read};
-use crate::fingerprint::Prints;
 use crate::golden::{self, Records};
 use crate::judge::{Computing, Judge};
 use crate::metric::Judgement;
 use crate::options::Options;
 use crate::outcome::{Outcome, PassOutcome, PortOutcome, Problem, RelationOutcome, State};
 use crate::picture::Picture;
+use crate::provenance::Origins;
 use crate::session::{Rendered, Session, Variation};
 use crate::untapped::{self, written};
 use crate::{bless, isolate, relation, robust};
@@ -281,7 +280,7 @@ impl Session {
         let own = self.prints(&ready.loaded, &ready.registry, &ready.plan, frame);
         let others = self.prints(other, &ready.registry, plan, frame);
         let is_same = |port: &Handle<PlannedPort>| {
-            let print = |plan: &Plan, prints: &Prints, port: Handle<PlannedPort>| {
+            let print = |plan: &Plan, prints: &Origins, port: Handle<PlannedPort>| {
                 Some(prints[plan.ports[port].pass?].made_from)
             };
             let in_other = plan.planned(ready.plan.ports[*port].port);

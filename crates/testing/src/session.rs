@@ -8,15 +8,14 @@ use std::time::{Duration, Instant};
 use tyndall_document::Diagnostics;
 use tyndall_gpu::{Executor, FRAMES_PER_SECOND, FrameOptions, Gpu, PipelineCache, PortData, Timing};
 use tyndall_graph::descriptor::{Format, PortDescriptor};
-use tyndall_graph::{Graph, Handle, Order, Plan, PlanOptions, PlannedPort, PortRef, Resource, Roots};
+use tyndall_graph::{Digest, Graph, Handle, MadeFrom, Order, Plan, PlanOptions, PlannedPort, PortRef, Resource, Roots};
 use tyndall_plugin::{Plugin, Registry, SearchPath};
 use tyndall_render::{Error, Loaded, Running};
 use tyndall_scene::Encoded;
 
 use crate::answers::Answers;
-use crate::digest::Digest;
-use crate::fingerprint::{Fingerprint, Prints, fingerprints};
 use crate::picture::Picture;
+use crate::provenance::{Origins, origins};
 use crate::untapped::written;
 
 /// Makes the plugins of a registry.
@@ -24,7 +23,7 @@ pub type Plugins = Vec<fn() -> Plugin>;
 
 /// What the tests of one run share.
 ///
-/// A result that was computed for one test is given to every later one whose fingerprint is the same, so that of two
+/// A result that was computed for one test is given to every later one that is made from the same, so that of two
 /// tests of one graph the second renders only what differs.
 pub struct Session {
     plugins: Plugins,
@@ -36,7 +35,7 @@ pub struct Session {
     results: HashMap<ResultKey, Arc<PortData>>,
     held: usize,
     /// What a pass took when it ran for the first time.
-    costs: HashMap<Fingerprint, Duration>,
+    costs: HashMap<MadeFrom, Duration>,
     /// Pictures that a driver has left undone.
     pub(crate) unfinished: Diagnostics,
     /// What references on the CPU have said, to this session and to those forked from it.
@@ -48,7 +47,7 @@ pub struct Session {
 }
 
 /// What a port was made from, and which port of the pass it is.
-type ResultKey = (Fingerprint, Handle<PortDescriptor>);
+type ResultKey = (MadeFrom, Handle<PortDescriptor>);
 
 /// Results that are held at most, bytes: 1 GiB. Beyond it all are let go, and sharing begins anew.
 const MOST_HELD: usize = 1 << 30;
@@ -112,7 +111,7 @@ pub struct Rendered {
     /// What was asked for.
     pub ports: BTreeMap<PortRef, Arc<PortData>>,
     /// What each was made from; `None` where it depends on a frame before.
-    pub made_from: BTreeMap<PortRef, Option<Fingerprint>>,
+    pub made_from: BTreeMap<PortRef, Option<MadeFrom>>,
 }
 
 impl Rendered {
@@ -274,9 +273,9 @@ impl Session {
         Ok(rendered)
     }
 
-    pub(crate) fn prints(&self, loaded: &Loaded, registry: &Registry, plan: &Plan, frame: u32) -> Prints {
+    pub(crate) fn prints(&self, loaded: &Loaded, registry: &Registry, plan: &Plan, frame: u32) -> Origins {
         let encoded = encode(loaded, plan, frame);
-        fingerprints(plan, registry, encoded.as_ref(), frame)
+        origins(plan, registry, encoded.as_ref(), frame)
     }
 
     /// Renders what no test has rendered before, from what one has.
@@ -325,8 +324,8 @@ impl Session {
         Ok(rendered)
     }
 
-    /// The fingerprints of the passes that an executor has run, and what each took.
-    fn ran(&mut self, executor: &Executor, prints: &Prints) -> Vec<Fingerprint> {
+    /// What the passes that an executor has run were made from, and what each took.
+    fn ran(&mut self, executor: &Executor, prints: &Origins) -> Vec<MadeFrom> {
         let ran = executor.counters().iter().zip(prints).filter(|(counters, _)| counters.runs > 0);
         for (counters, print) in ran.clone() {
             let took = Duration::from_secs_f64(counters.alone_us / 1e6);
@@ -336,14 +335,14 @@ impl Session {
     }
 
     /// Counts the passes of a plan that have not run, as they had before.
-    fn spare(&mut self, plan: &Plan, prints: &Prints, ran: &[Fingerprint]) {
+    fn spare(&mut self, plan: &Plan, prints: &Origins, ran: &[MadeFrom]) {
         self.saved.spared += plan.passes.len() - ran.len();
         let spared = prints.iter().map(|print| &print.made_from).filter(|print| !ran.contains(print));
         self.saved.spared_time += spared.filter_map(|print| self.costs.get(print)).sum::<Duration>();
     }
 
     /// Gives every result that is known from before, where a device takes it.
-    fn give_known(&self, executor: &mut Executor, prints: &Prints) -> Result<(), Error> {
+    fn give_known(&self, executor: &mut Executor, prints: &Origins) -> Result<(), Error> {
         for port in executor.plan().ports.handles() {
             let known = key(executor.plan(), prints, port).and_then(|key| self.results.get(&key));
             if let Some(data) = known.filter(|_| can_be_given(executor.plan().resource(port))) {
@@ -408,23 +407,23 @@ impl Session {
         running.frame(FrameOptions { frame, ..FrameOptions::default() })?;
         running.warn_of_unfinished(&mut self.unfinished)?;
         // What was given was made from nothing that is known here.
-        let rendered = read_all(&running.executor, ports, frame, &Prints::new());
+        let rendered = read_all(&running.executor, ports, frame, &Origins::new());
         self.saved.rendering += start.elapsed();
         rendered
     }
 }
 
 /// What a result is known by, where it can be shared.
-fn key(plan: &Plan, prints: &Prints, port: Handle<PlannedPort>) -> Option<ResultKey> {
+fn key(plan: &Plan, prints: &Origins, port: Handle<PlannedPort>) -> Option<ResultKey> {
     let planned = &plan.ports[port];
-    Some((prints[planned.pass?].shared()?, planned.port.port))
+    Some((prints[planned.pass?].repeatable()?, planned.port.port))
 }
 
-fn made_from(plan: &Plan, prints: &Prints, port: Handle<PlannedPort>) -> Option<Fingerprint> {
+fn made_from(plan: &Plan, prints: &Origins, port: Handle<PlannedPort>) -> Option<MadeFrom> {
     Some(prints.get(plan.ports[port].pass?)?.made_from)
 }
 
-fn read_all(executor: &Executor, ports: &[PortRef], frame: u32, prints: &Prints) -> Result<Rendered, Error> {
+fn read_all(executor: &Executor, ports: &[PortRef], frame: u32, prints: &Origins) -> Result<Rendered, Error> {
     let mut rendered = Rendered { frame, ports: BTreeMap::new(), made_from: BTreeMap::new() };
     for port in ports {
         let Some(planned) = executor.plan().planned(*port) else { continue };

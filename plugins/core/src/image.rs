@@ -1,6 +1,5 @@
 //! `core.image`: a picture from a file.
 
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
 
 use tyndall_image::Image;
@@ -56,7 +55,6 @@ fn descriptor() -> PassDescriptor {
 
 struct Picture {
     texels: Vec<u8>,
-    fingerprint: u64,
 }
 
 impl Picture {
@@ -70,10 +68,7 @@ impl Picture {
             Some(Resource::Texture { width, height, .. }) if (*width, *height) == (image.width, image.height) => {}
             _ => return Err(input(format!("{path} has changed its size since the graph was read: start again"))),
         }
-        let texels = rgba(&image);
-        let mut hasher = DefaultHasher::new();
-        texels.hash(&mut hasher);
-        Ok(Self { texels, fingerprint: hasher.finish() })
+        Ok(Self { texels: rgba(&image) })
     }
 }
 
@@ -94,9 +89,5 @@ impl Program for Picture {
     fn record(&mut self, recorder: &mut Recorder<'_>) -> Result<(), GpuError> {
         let port = recorder.pass.port("color")?;
         recorder.write_texture(port, &self.texels)
-    }
-
-    fn fingerprint(&self) -> u64 {
-        self.fingerprint
     }
 }

@@ -66,7 +66,7 @@ impl Programs for Shaders {
         Ok(Box::new(Dispatch(Kernel::new(setup, &self.0[descriptor.name.as_str()], "main")?, size)))
     }
 
-    fn fingerprint(&self, pass: &str) -> u64 {
+    fn shaders(&self, pass: &str) -> u64 {
         self.0[pass].fingerprint
     }
 }

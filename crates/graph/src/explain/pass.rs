@@ -141,7 +141,7 @@ fn placed(plan: &Plan, position: Handle<PlannedPass>) -> String {
 /// Why a pass runs in every frame, or does not.
 fn changes(plan: &Plan, position: Handle<PlannedPass>) -> Vec<String> {
     if plan.passes.iter().all(|pass| pass.volatile) {
-        return vec!["it runs in every frame".to_owned()];
+        return vec!["this plan keeps nothing: it runs, unless what it wrote happens to be there still".to_owned()];
     }
     if !plan.passes[position].volatile {
         return vec!["nothing that it depends on changes from frame to frame, so it runs once".to_owned()];

@@ -139,7 +139,7 @@ fn storage(plan: &Plan, planned: Handle<PlannedPort>, report: &mut Report) {
     let port = &plan.ports[planned];
     let slot = &plan.slots[port.slot];
     let bytes = byte_words(slot.resource.bytes());
-    report.line("storage", &format!("slot {}: {}, {bytes}, {}", port.slot, slot.resource, slot.usages));
+    report.line("storage", &format!("slot {}: {}, {bytes}", port.slot, slot.resource));
     report.line("lifetime", &lifetime(plan, planned));
     report.line("sharing", &sharing(plan, planned));
 }

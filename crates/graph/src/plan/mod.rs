@@ -12,13 +12,13 @@ mod slots;
 use std::sync::Arc;
 
 use crate::descriptor::{Class, ParamDescriptor, PassDescriptor, PortDescriptor};
-use crate::graph::{Graph, ParamSetting, Pass, PortRef};
+use crate::graph::{Graph, ParamSetting, Pass, PortRef, Values};
 use crate::handle::{Handle, Handles, Slice, Table};
 use crate::wiring::GraphPort;
 
 pub use build::plan;
 pub use options::{Keep, Order, PlanOptions, Roots};
-pub use resource::{Resource, Usages};
+pub use resource::Resource;
 
 /// What a frame does, by handles alone. Made by [`plan`](plan()); two plans of the same graph and options are equal.
 #[derive(Debug, Clone)]
@@ -61,8 +61,8 @@ struct Bindings {
 pub struct PlannedPass {
     /// The pass in the graph.
     pub pass: Handle<Pass>,
-    /// Its results may differ from frame to frame, so that it runs in each. True for every pass under
-    /// [`Keep::Nothing`].
+    /// By what the plan's options say is live or animated, its results may differ from frame to frame. What passes that are not
+    /// volatile write for others is kept, so these run once. True for every pass under [`Keep::Nothing`].
     pub volatile: bool,
     /// The ports that it writes.
     outputs: Handles<PlannedPort>,
@@ -116,8 +116,6 @@ pub struct Slot {
     pub resource: Resource,
     /// How long it holds what.
     pub kind: SlotKind,
-    /// In which ways it is used.
-    pub usages: Usages,
     first_port: Option<Handle<PlannedPort>>,
 }
 
@@ -243,6 +241,12 @@ impl Plan {
     /// Settings of the pass at this position.
     pub fn params(&self, position: Handle<PlannedPass>) -> &Table<ParamDescriptor, ParamSetting> {
         &self.pass(position).params
+    }
+
+    /// The values of all parameters in the frame of this number, at this time in seconds.
+    pub fn values(&self, frame: u32, seconds: f64) -> Table<PlannedPass, Values> {
+        let of_pass = |pass| self.params(pass).iter().map(|setting| setting.value(frame, seconds)).collect();
+        self.passes.handles().map(of_pass).collect()
     }
 
     /// The slot bound to each of the descriptor's ports: inputs, constants for what is absent, outputs. Every entry is

@@ -42,7 +42,7 @@ pub enum Roots {
 /// What outlives a frame, so that a pass whose inputs have not changed need not run again.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Keep {
-    /// Nothing: every pass runs in every frame.
+    /// Nothing: what is left of the frame before is not counted on.
     Nothing,
     /// The ports on the edge between passes that stay the same and passes that change from frame to frame.
     Edges {

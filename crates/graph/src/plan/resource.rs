@@ -1,7 +1,6 @@
 //! What a slot is made of.
 
 use std::fmt;
-use std::ops::{BitOr, BitOrAssign};
 
 use crate::descriptor::{Dimension, Format, PortDescriptor, Scalar};
 
@@ -67,61 +66,5 @@ impl fmt::Display for Resource {
                 write!(f, "buffer of {} × {stride} B", bytes / u64::from(stride.max(1)))
             }
         }
-    }
-}
-
-/// In which ways a slot is used: a set.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub struct Usages(u8);
-
-impl Usages {
-    /// In none.
-    pub const NONE: Self = Self(0);
-    /// Read as a texture.
-    pub const SAMPLED: Self = Self(1);
-    /// Bound as a storage texture or storage buffer.
-    pub const STORAGE: Self = Self(2);
-    /// Drawn into.
-    pub const ATTACHMENT: Self = Self(4);
-    /// Copied from: to another slot or back to the CPU.
-    pub const COPY_FROM: Self = Self(8);
-    /// Copied to, or filled with a value.
-    pub const COPY_TO: Self = Self(16);
-    /// Bound as a uniform.
-    pub const UNIFORM: Self = Self(32);
-
-    /// Whether every way of `other` is in this.
-    pub fn contains(self, other: Self) -> bool {
-        self.0 & other.0 == other.0
-    }
-}
-
-impl BitOr for Usages {
-    type Output = Self;
-
-    fn bitor(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-}
-
-impl BitOrAssign for Usages {
-    fn bitor_assign(&mut self, other: Self) {
-        self.0 |= other.0;
-    }
-}
-
-/// `sampled, storage`.
-impl fmt::Display for Usages {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let names = [
-            (Self::SAMPLED, "sampled"),
-            (Self::STORAGE, "storage"),
-            (Self::ATTACHMENT, "attachment"),
-            (Self::COPY_FROM, "copied from"),
-            (Self::COPY_TO, "copied to"),
-            (Self::UNIFORM, "uniform"),
-        ];
-        let names: Vec<&str> = names.iter().filter(|(usage, _)| self.contains(*usage)).map(|(_, name)| *name).collect();
-        f.write_str(&names.join(", "))
     }
 }

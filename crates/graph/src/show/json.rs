@@ -67,7 +67,6 @@ fn slot(plan: &Plan, index: Handle<Slot>) -> Value {
         "resource": resource(slot.resource),
         "holds": kind,
         "bytes": slot.resource.bytes(),
-        "usages": slot.usages.to_string(),
         "ports": ports,
     })
 }

@@ -105,13 +105,7 @@ fn write_memory(text: &mut String, plan: &Plan) -> fmt::Result {
     writeln!(text, "\nmemory  (● written, ○ read, ▶ to the end of the frame)")?;
     for (index, slot) in plan.slots.entries().filter(|(_, slot)| shown(slot.kind)) {
         let kept = if slot.kind == SlotKind::Kept { ", kept across frames" } else { "" };
-        writeln!(
-            text,
-            "  slot {index}: {}, {}{kept}, {}",
-            slot.resource,
-            byte_words(slot.resource.bytes()),
-            slot.usages
-        )?;
+        writeln!(text, "  slot {index}: {}, {}{kept}", slot.resource, byte_words(slot.resource.bytes()))?;
         for port in plan.ports_in(index) {
             let chart = chart(plan, &plan.ports[port], &readers[port]);
             writeln!(text, "      {:width$}  {chart}", plan.port_name(port))?;

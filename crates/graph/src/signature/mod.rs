@@ -6,7 +6,6 @@ mod resolve;
 
 use crate::descriptor::{Axis, ParamDescriptor, PassDescriptor, PortDescriptor};
 use crate::handle::{Handle, Table};
-use crate::plan::Usages;
 pub use errors::DescriptorError;
 
 use checks::{check_default, check_names, check_presets};
@@ -37,8 +36,6 @@ pub(crate) struct PortSignature {
     pub constant: [f32; 4],
     /// How many extents mean something.
     pub axes: usize,
-    /// How the pass uses what is bound there.
-    pub usages: Usages,
 }
 
 /// [`Role`] without what belongs to it.

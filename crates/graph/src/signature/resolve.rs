@@ -2,11 +2,10 @@
 
 use super::{Amount, DescriptorError, PortSignature, RoleKind, Rule};
 use crate::descriptor::{
-    Class, Dimension, Disabled, Extent, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind,
-    Role, SizeRule,
+    Class, Dimension, Disabled, Extent, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role,
+    SizeRule,
 };
 use crate::handle::Handle;
-use crate::plan::Usages;
 
 /// A port with its names resolved; what they get wrong is added to `errors`.
 pub(super) fn resolve(
@@ -29,7 +28,6 @@ pub(super) fn resolve(
         through: through(descriptor, port, errors),
         constant,
         axes: axes(&port.kind),
-        usages: usages(role, &port.kind),
     }
 }
 
@@ -174,17 +172,5 @@ fn axes(kind: &PortKind) -> usize {
         PortKind::Texture { .. } => 3,
         PortKind::Buffer { .. } => 1,
         PortKind::Value { .. } => 0,
-    }
-}
-
-fn usages(role: RoleKind, kind: &PortKind) -> Usages {
-    match kind {
-        PortKind::Texture { class, format, .. } if role.is_output() => {
-            let drawn = *class == Class::RasterDepth || *format == Some(Format::Depth32Float);
-            if drawn { Usages::ATTACHMENT } else { Usages::STORAGE }
-        }
-        PortKind::Texture { .. } => Usages::SAMPLED,
-        PortKind::Value { .. } if !role.is_output() => Usages::UNIFORM,
-        PortKind::Buffer { .. } | PortKind::Value { .. } => Usages::STORAGE,
     }
 }

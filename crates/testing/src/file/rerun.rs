@@ -3,13 +3,12 @@
 use std::fmt::Write as _;
 
 use tyndall_document::{Diagnostic, Diagnostics};
-use tyndall_graph::{Graph, Plan};
+use tyndall_graph::{Digest, Graph, Plan};
 use tyndall_render::Loaded;
 use tyndall_scene::Scene;
 
 use super::{Change, Expectation, TestFile};
 use crate::codes;
-use crate::digest::Digest;
 
 /// What a relation asks of ports of another run must be such as can be asked: the mistakes go to `out`.
 pub fn check_run(

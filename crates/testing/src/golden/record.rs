@@ -5,11 +5,10 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use tyndall_document::{Decoder, Diagnostics, Node, Source, parse};
+use tyndall_graph::{Digest, MadeFrom};
 
 use super::{NotWritten, RECORDS};
 use crate::adapter::AdapterClass;
-use crate::digest::Digest;
-use crate::fingerprint::Fingerprint;
 
 /// What one golden was made from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -21,7 +20,7 @@ pub struct Record {
     /// Version of the program.
     pub program: String,
     /// Graph, shaders, parameters and scene; `None` where the port depends on frames before.
-    pub made_from: Option<Fingerprint>,
+    pub made_from: Option<MadeFrom>,
 }
 
 /// The records of a folder of goldens, by the name of the golden.
@@ -30,9 +29,7 @@ pub struct Records(BTreeMap<String, Record>);
 
 /// A hash of a file's bytes, as the records hold it.
 pub(crate) fn content_hash(bytes: &[u8]) -> String {
-    let mut digest = Digest::default();
-    digest.bytes(bytes);
-    hex(digest.finish())
+    hex(Digest::of(bytes))
 }
 
 fn hex(number: u64) -> String {
@@ -44,14 +41,14 @@ impl Record {
     ///
     /// # Errors
     /// Where it cannot be read.
-    pub fn new(path: &Path, adapter: AdapterClass, made_from: Option<Fingerprint>) -> Result<Self, NotWritten> {
+    pub fn new(path: &Path, adapter: AdapterClass, made_from: Option<MadeFrom>) -> Result<Self, NotWritten> {
         let bytes = std::fs::read(path)
             .map_err(|error| NotWritten { what: format!("{}: {error}", path.display()), is_of_machine: true })?;
         Ok(Self { content: content_hash(&bytes), adapter, program: env!("CARGO_PKG_VERSION").to_owned(), made_from })
     }
 
     /// What has changed since the golden was made: it is stale where that is anything.
-    pub fn stale(&self, now: Option<&Fingerprint>) -> Vec<&'static str> {
+    pub fn stale(&self, now: Option<&MadeFrom>) -> Vec<&'static str> {
         let mut changed = match (&self.made_from, now) {
             (Some(then), Some(now)) => then.changed(now),
             (None, None) => Vec::new(),
@@ -120,7 +117,7 @@ impl Records {
             let Record { content, adapter, program, made_from } = record;
             let _ =
                 write!(text, "    {key:?}: (content: {content:?}, adapter: {:?}, program: {program:?}", adapter.name());
-            for (name, value) in made_from.iter().flat_map(Fingerprint::parts) {
+            for (name, value) in made_from.iter().flat_map(MadeFrom::parts) {
                 let _ = write!(text, ", {name}: {:?}", hex(value));
             }
             text += "),\n";
@@ -142,7 +139,7 @@ fn record(decoder: &mut Decoder<'_>, node: &Node) -> Option<Record> {
     let parts = ["graph", "shaders", "parameters", "scene"].map(|name| part(decoder, name));
     let made_from = match parts {
         [Some(graph), Some(shaders), Some(parameters), Some(scene)] => {
-            Some(Fingerprint { graph, shaders, parameters, scene })
+            Some(MadeFrom { graph, shaders, parameters, scene })
         }
         _ => None,
     };

@@ -108,15 +108,21 @@ fn a_golden_whose_record_is_another_s_fails() {
 fn stale_is_told_apart_from_different() {
     let chain = Chain::new();
     chain.set_line("three", &format!("{LINE} // as before"));
+    assert!(chain.plain().ports.iter().all(|port| port.stale.is_empty()), "a comment does nothing");
+    chain.set_line("three", &format!("{LINE} let idle = 0.0;"));
     let outcome = chain.plain();
     assert!(outcome.passed());
     let stale: Vec<_> = outcome.ports.iter().filter(|port| !port.stale.is_empty()).collect();
     assert_eq!(stale.iter().map(|port| port.pass.as_str()).collect::<Vec<_>>(), ["three", "four", "five"]);
     assert!(stale.iter().all(|port| port.stale == ["shaders"]));
 
+    let written = || fs::metadata(chain.path("chain.goldens/three.result.exr")).unwrap().modified().unwrap();
+    let before = written();
     let renewed = chain.run(&bless());
     assert_eq!(renewed.blessed.len(), 3, "{:?}", renewed.blessed);
-    assert!(renewed.blessed[0].contains("shaders had changed"), "{:?}", renewed.blessed);
+    let line = &renewed.blessed[0];
+    assert!(line.starts_with("recorded anew") && line.contains("shaders had changed"), "{line}");
+    assert_eq!(before, written(), "a picture that is still right stays");
     assert!(chain.plain().ports.iter().all(|port| port.stale.is_empty()));
 
     // The golden itself is another: nothing that it was made from has changed.

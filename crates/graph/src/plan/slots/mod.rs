@@ -10,7 +10,7 @@ mod standing;
 
 use super::lifetimes::Draft;
 use super::sizes::Sizes;
-use super::{Bindings, ClassBytes, PlannedPass, PlannedPort, Resource, Slot, SlotKind, Step, Until, Usages};
+use super::{Bindings, ClassBytes, PlannedPass, PlannedPort, Resource, Slot, SlotKind, Step, Until};
 use crate::catalogue::Kind;
 use crate::descriptor::PortDescriptor;
 use crate::handle::{Handle, Segment, Table};
@@ -146,7 +146,6 @@ impl<'a> Scan<'a> {
                 RoleKind::History => (self.history(number, port), None),
                 RoleKind::Input | RoleKind::Optional => self.read(number),
             };
-            self.done.slots[slot].usages |= port.usages;
             self.done.bindings.slots[number] = Some(slot);
             self.done.bindings.sources[number] = source;
         }
@@ -187,8 +186,6 @@ impl<'a> Scan<'a> {
             return (from, source);
         }
         let to = self.written(number);
-        self.done.slots[from].usages |= Usages::COPY_FROM;
-        self.done.slots[to].usages |= Usages::COPY_TO;
         self.done.steps.push(Step::Copy { pass: position, from, to });
         (to, source)
     }
@@ -263,7 +260,7 @@ impl<'a> Scan<'a> {
 
     fn add(&mut self, resource: Resource, kind: SlotKind, class: Option<Handle<ClassBytes>>) -> Handle<Slot> {
         self.state.push(SlotState { class, holds: None, next_free: None });
-        self.done.slots.push(Slot { resource, kind, usages: Usages::NONE, first_port: None })
+        self.done.slots.push(Slot { resource, kind, first_port: None })
     }
 
     /// Puts the next port of the draft into a slot, behind those that were there before. Slots are given in the order of

@@ -2,7 +2,7 @@
 
 use super::Scan;
 use crate::handle::Handle;
-use crate::plan::{Resource, Slot, SlotKind, Step, Usages};
+use crate::plan::{Resource, Slot, SlotKind, Step};
 use crate::signature::PortSignature;
 use crate::wiring::GraphPort;
 
@@ -16,7 +16,6 @@ impl Scan<'_> {
         }
         let resource = self.resource(number);
         let slot = self.add(resource, SlotKind::History { of, first }, None);
-        self.done.slots[slot].usages |= Usages::COPY_TO;
         self.histories.insert((of, first.map(f32::to_bits)), slot);
         slot
     }
@@ -47,7 +46,6 @@ impl Scan<'_> {
             return *slot;
         }
         let slot = self.add(resource, SlotKind::Constant(value), None);
-        self.done.slots[slot].usages |= Usages::COPY_TO;
         self.constants.insert(key, slot);
         slot
     }
@@ -58,13 +56,9 @@ impl Scan<'_> {
             let slot = self.constant_for(self.wiring.passes.port(port.port));
             self.hold(slot, false);
         }
-        for root in &self.draft.roots {
-            self.done.slots[self.done.ports[*root].slot].usages |= Usages::COPY_FROM;
-        }
         for slot in self.done.slots.handles() {
             if let SlotKind::History { of, .. } = self.done.slots[slot].kind {
                 let from = self.done.ports[of].slot;
-                self.done.slots[from].usages |= Usages::COPY_FROM;
                 self.done.steps.push(Step::Carry { from, to: slot });
             }
         }

@@ -1,5 +1,5 @@
 //! Numbers that stand for what they were made of: the same with every toolchain and on every machine, unlike those of the
-//! standard library.
+//! standard library's hasher.
 
 use std::hash::Hasher;
 
@@ -7,9 +7,16 @@ use siphasher::sip::SipHasher13;
 
 /// A hash of pieces: SipHash 1-3. Each piece counts with its length, so that none runs into the next.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Digest(SipHasher13);
+pub struct Digest(SipHasher13);
 
 impl Digest {
+    /// The hash of these bytes alone.
+    pub fn of(bytes: &[u8]) -> u64 {
+        let mut digest = Self::default();
+        digest.bytes(bytes);
+        digest.finish()
+    }
+
     /// Adds bytes.
     pub fn bytes(&mut self, bytes: &[u8]) {
         self.0.write(&(bytes.len() as u64).to_le_bytes());
@@ -36,7 +43,7 @@ impl Digest {
 mod tests {
     use super::*;
 
-    /// Records of goldens hold these numbers: whatever changes them makes all goldens stale.
+    /// Goldens are recorded with these numbers: whatever changes them makes all goldens stale.
     #[test]
     fn digests_are_the_same_for_ever() {
         let digest = |pieces: &[&str]| {

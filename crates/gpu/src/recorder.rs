@@ -1,78 +1,16 @@
-//! What a pass sees when it is made ready for a plan, and when it records a frame.
+//! What a pass records its work into.
 
-use tyndall_graph::descriptor::{Format, ParamValue, PortDescriptor};
-use tyndall_graph::{Handle, Resource, Slot};
+use tyndall_graph::descriptor::PortDescriptor;
+use tyndall_graph::{Handle, Resource, Slot, Values};
 
-use crate::bindings::{Bound, Values};
-use crate::cache::PipelineCache;
-use crate::device::Gpu;
+use crate::bindings::Bound;
 use crate::error::GpuError;
 use crate::kernel::{Kernel, Raster};
-use crate::scene::SceneBuffers;
 use crate::slots::Physical;
 use crate::timing::Stamps;
 use crate::view::PlannedView;
 
-/// A pass of a plan that can record its work.
-pub trait Program {
-    /// Records one run of the pass into the frame.
-    ///
-    /// # Errors
-    /// What the recorder reports.
-    fn record(&mut self, recorder: &mut Recorder<'_>) -> Result<(), GpuError>;
-
-    /// A number that changes whenever something outside of the graph and the scene changes what the pass computes:
-    /// the content of a file that it has read, say.
-    fn fingerprint(&self) -> u64 {
-        0
-    }
-
-    /// Where the pass counts threads whose loops the driver has ended, if it does.
-    fn unfinished(&self) -> Option<&wgpu::Buffer> {
-        None
-    }
-}
-
-/// Gives the program of each pass of a plan: implemented by the registry of plugins.
-pub trait Programs {
-    /// Makes a pass ready: links shaders, compiles pipelines, reads files.
-    ///
-    /// # Errors
-    /// What stands in the way.
-    fn program(&self, setup: &mut Setup<'_>) -> Result<Box<dyn Program>, GpuError>;
-
-    /// A number that changes with the shaders of this pass (`plugin.pass`).
-    fn fingerprint(&self, pass: &str) -> u64;
-}
-
-/// What a pass is made ready with.
-pub struct Setup<'a> {
-    /// The device.
-    pub gpu: &'a Gpu,
-    /// The pass within its plan.
-    pub pass: PlannedView<'a>,
-    pub(crate) values: &'a Values,
-    pub(crate) scene: &'a mut SceneBuffers,
-    pub(crate) cache: &'a mut PipelineCache,
-}
-
-impl Setup<'_> {
-    /// The value of a parameter at this moment; a parameter that is not `fixed` may change from frame to frame.
-    pub fn param(&self, name: &str) -> Option<&ParamValue> {
-        Some(&self.values[self.pass.param(name)?])
-    }
-
-    /// The slot and the format of a texture port.
-    pub(crate) fn target(&self, port: &str) -> Result<(Handle<Slot>, Format), GpuError> {
-        let index = self.pass.port(port)?;
-        match (self.pass.slot(index), self.pass.resource(index)) {
-            (Some(slot), Some(Resource::Texture { format, .. })) => Ok((slot, *format)),
-            _ => Err(self.pass.refuse(format!("it draws into `{port}`, which is no texture of it"))),
-        }
-    }
-}
-
-/// What a pass records its work into.
+/// The frame that a pass adds its work to.
 pub struct Recorder<'a> {
     pub(crate) encoder: &'a mut wgpu::CommandEncoder,
     pub(crate) bound: Bound<'a>,
