@@ -11,7 +11,7 @@ use crate::failure::Failure;
 /// The environment variable with further folders, separated as in `PATH`.
 const PLUGIN_PATH: &str = "TYNDALL_PLUGIN_PATH";
 
-/// Links and checks every pass that is found. `beside` are files whose folders may hold a `plugins` folder.
+/// Every pass that is found, none of them linked yet. `beside` are files whose folders may hold a `plugins` folder.
 pub(crate) fn registry(app: &App, arguments: &Arguments, beside: &[&Path]) -> Result<Registry, Failure> {
     let paths = search_paths(arguments, beside);
     let crates = app.plugins.iter().map(|plugin| plugin()).collect();

@@ -29,7 +29,7 @@ mod signature;
 mod validate;
 mod wiring;
 
-pub use catalogue::{Catalogue, PictureSize};
+pub use catalogue::{Catalogue, Kind, PictureSize};
 pub use codes::CODES;
 pub use digest::Digest;
 pub use explain::explain;

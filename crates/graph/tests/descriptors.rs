@@ -62,7 +62,7 @@ fn names_are_names_and_stand_once() {
     let twice = vec![param("x", ParamValue::Bool(true), None), param("x", ParamValue::Bool(true), None)];
     assert_eq!(errors(pass("test.pass", vec![], twice)), [E::DuplicateParam("x".into())]);
     let mut catalogue = support::catalogue();
-    let again = catalogue.get("core.add").unwrap().clone();
+    let again = catalogue.get("core.add").unwrap().unwrap().clone();
     assert_eq!(catalogue.insert(again), Err(vec![E::DuplicatePass("core.add".into())]));
 }
 

@@ -26,6 +26,8 @@ pub struct Folder {
     /// Number of the search path that it was found on: of two plugins of one name, the one on the lower path wins.
     pub(crate) path: usize,
     pub(crate) files: BTreeMap<String, Arc<Source>>,
+    /// Why files are not there that should be.
+    pub(crate) unreadable: Vec<Diagnostic>,
 }
 
 /// Name of the manifest in a plugin's folder.
@@ -37,27 +39,51 @@ impl Folder {
         let source = |(file, text): &(&str, &str)| {
             ((*file).to_owned(), Source::new(format!("plugins/{name}/{file}"), (*text).to_owned()))
         };
-        Self { origin: Origin::BuiltIn, path: 0, files: files.iter().map(source).collect() }
+        let files = files.iter().map(source).collect();
+        Self { origin: Origin::BuiltIn, path: 0, files, unreadable: Vec::new() }
     }
 
-    /// The manifest and all WGSL files of a folder on disk (not of folders in it).
-    ///
-    /// # Errors
-    /// A file or the folder that cannot be read.
-    pub fn read(path: &Path) -> Result<Self, Diagnostic> {
-        let unreadable = |error: std::io::Error| {
-            let message = format!("the plugin's folder cannot be read: {error}");
-            Diagnostic::error(UNREADABLE_PLUGIN, Place::File(path.display().to_string()), message)
-        };
-        let mut files = BTreeMap::new();
-        for entry in std::fs::read_dir(path).map_err(unreadable)? {
-            let file = entry.map_err(unreadable)?.path();
-            let Some(name) = file.file_name().and_then(|name| name.to_str()) else { continue };
-            if name == MANIFEST || name.ends_with(".wgsl") {
-                files.insert(name.to_owned(), Source::read(&file)?);
+    /// The manifest and all WGSL files of a folder on disk (not of folders in it). What cannot be read is a mistake of
+    /// the plugin, told where it is used.
+    pub fn read(path: &Path) -> Self {
+        let mut folder =
+            Self { origin: Origin::Folder(path.to_owned()), path: 0, files: BTreeMap::new(), unreadable: Vec::new() };
+        match std::fs::read_dir(path).and_then(Iterator::collect::<std::io::Result<Vec<_>>>) {
+            Ok(entries) => entries.iter().for_each(|entry| folder.read_file(&entry.path())),
+            Err(error) => {
+                let message = format!("the plugin's folder cannot be read: {error}");
+                let place = Place::File(path.display().to_string());
+                folder.unreadable.push(Diagnostic::error(UNREADABLE_PLUGIN, place, message));
             }
         }
-        Ok(Self { origin: Origin::Folder(path.to_owned()), path: 0, files })
+        folder
+    }
+
+    fn read_file(&mut self, file: &Path) {
+        let Some(name) = file.file_name().and_then(|name| name.to_str()) else { return };
+        if name != MANIFEST && !name.ends_with(".wgsl") {
+            return;
+        }
+        match Source::read(file) {
+            Ok(source) => drop(self.files.insert(name.to_owned(), source)),
+            Err(problem) => self.unreadable.push(problem),
+        }
+    }
+
+    /// The folder's own name: a plugin's folder is usually called like the plugin.
+    pub(crate) fn name(&self) -> String {
+        match &self.origin {
+            Origin::Folder(path) => path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+            Origin::BuiltIn => String::new(),
+        }
+    }
+
+    /// The manifest's path, where a user can look at it.
+    pub(crate) fn manifest_path(&self) -> Option<String> {
+        match &self.origin {
+            Origin::Folder(path) => Some(path.join(MANIFEST).display().to_string()),
+            Origin::BuiltIn => None,
+        }
     }
 
     /// A file by its name.

@@ -5,13 +5,15 @@
 //! * A **crate plugin** is the same folder inside a crate, embedded with [`folder!`], plus [`RustPass`]es. Where the
 //!   folder itself is found at run time too, its files win over the embedded ones, so WGSL can be edited without a build.
 //!
-//! Both declare passes by the same descriptor and go through the same checks: [`Registry::new`] links every shader and
-//! holds it against what is declared.
+//! Both declare passes by the same descriptor and go through the same checks: when a graph first uses a pass, the
+//! [`Registry`] links its shaders and holds them against what is declared.
 
 pub mod codes;
 mod dispatch;
 mod folder;
+mod found;
 mod limits;
+mod linker;
 mod manifest;
 mod pass;
 mod ports;

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use tyndall_document::{BAD_VERSION, Decoder, Diagnostic, Diagnostics, Node, Source, Span, Value, parse};
+use tyndall_document::{BAD_VERSION, Decoder, Diagnostic, Diagnostics, Fields, Node, Source, Span, Value, parse};
 
 use crate::codes::BAD_PLUGIN_NAME;
 use crate::dispatch::Over;
@@ -66,21 +66,23 @@ pub(crate) struct Entry {
     pub value: Node,
 }
 
-/// Reads a manifest; every mistake goes to `out`.
-pub(crate) fn read(source: &Arc<Source>, out: &mut Diagnostics) -> Option<Manifest> {
-    let root = parse(source, out)?;
+/// Reads a manifest, and the plugin's name also where the rest cannot be read; every mistake goes to `out`.
+pub(crate) fn read(source: &Arc<Source>, out: &mut Diagnostics) -> (Option<String>, Option<Manifest>) {
+    let root = parse(source, out);
     let mut decoder = Decoder::new(source, out);
-    let fields = decoder.fields(&root, "a plugin", &["name", "version", "about", "passes"])?;
+    let fields =
+        root.as_ref().and_then(|root| decoder.fields(root, "a plugin", &["name", "version", "about", "passes"]));
+    let Some(fields) = fields else { return (None, None) };
     let name = fields.required(&mut decoder, "name").and_then(|node| name(&mut decoder, node));
-    let version = fields.required(&mut decoder, "version").and_then(|node| version(&mut decoder, node));
-    let about = fields.required(&mut decoder, "about").and_then(|node| decoder.text(node)).map(str::to_owned);
-    let mut passes = Vec::new();
-    for entry in entries(&mut decoder, fields.get("passes")) {
-        if let Some(pass) = pass(&mut decoder, entry) {
-            passes.push(pass);
-        }
-    }
-    Some(Manifest { source: source.clone(), name: name?, version: version?, about: about?, passes })
+    (name.clone(), manifest(&mut decoder, &fields, name))
+}
+
+fn manifest(decoder: &mut Decoder<'_>, fields: &Fields<'_>, name: Option<String>) -> Option<Manifest> {
+    let version = fields.required(decoder, "version").and_then(|node| version(decoder, node));
+    let about = fields.required(decoder, "about").and_then(|node| decoder.text(node)).map(str::to_owned);
+    let entries = entries(decoder, fields.get("passes"));
+    let passes = entries.into_iter().filter_map(|entry| pass(decoder, entry)).collect();
+    Some(Manifest { source: decoder.source.clone(), name: name?, version: version?, about: about?, passes })
 }
 
 fn name(decoder: &mut Decoder<'_>, node: &Node) -> Option<String> {

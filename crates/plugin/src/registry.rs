@@ -1,28 +1,36 @@
-//! Every pass that a graph can use, linked and checked, and how to make each ready.
+//! Every pass that a graph can use, linked and checked when a graph first uses it, and how to make each ready.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
-use tyndall_document::{Diagnostic, Diagnostics, Place, near};
+use tyndall_document::{Diagnostics, near};
 use tyndall_gpu::{GpuError, Program, Programs, Setup};
-use tyndall_graph::descriptor::{PRESET, PassDescriptor};
-use tyndall_graph::{Catalogue, Digest, PictureSize};
-use tyndall_shader::{Library, Linked, check_all, link};
+use tyndall_graph::descriptor::PassDescriptor;
+use tyndall_graph::{Catalogue, Kind, PictureSize};
+use tyndall_shader::{Library, Linked};
 
-use crate::codes::{BAD_DESCRIPTOR, DUPLICATE_PLUGIN, MISSING_SHADER};
-use crate::dispatch::{self, Over};
-use crate::folder::{Folder, MANIFEST, Origin};
+use crate::dispatch;
+use crate::folder::{Folder, Origin};
+use crate::found::{self, Found};
 use crate::limits::Limit;
-use crate::manifest::{self, Manifest, ManifestPass, Version};
-use crate::pass::{MakeProgram, Plugin, Reference, RustPass, Shaders};
-use crate::ports::{self, Need};
+use crate::linker::{Linker, Make, fingerprint};
+use crate::manifest::Version;
+use crate::pass::{Plugin, Reference, RustPass, Shaders};
+use crate::ports::Need;
 
-/// Every pass of every plugin.
+/// Every pass of every plugin. The names of all passes are known from the manifests; a pass is linked and checked when a
+/// graph first uses it, once for all clones of the registry. So a mistake in a plugin is told where its passes are used,
+/// and by [`Self::mistakes`].
 #[derive(Clone, Default)]
 pub struct Registry {
     catalogue: Catalogue,
-    passes: BTreeMap<String, RegistryPass>,
+    passes: BTreeMap<String, Arc<LazyPass>>,
+    /// Of manifests and folders.
+    mistakes: Diagnostics,
 }
+
+type LazyPass = LazyLock<Result<RegistryPass, Diagnostics>, LinkPass>;
+type LinkPass = Box<dyn FnOnce() -> Result<RegistryPass, Diagnostics> + Send>;
 
 /// A pass that is ready to be used in graphs.
 #[derive(Clone)]
@@ -43,14 +51,9 @@ pub struct RegistryPass {
     pub fingerprint: u64,
     /// What it computes, on the CPU, where its plugin says.
     pub reference: Option<Reference>,
-    shaders: Shaders,
-    make: Make,
-}
-
-#[derive(Clone)]
-enum Make {
-    Dispatch { file: String, over: Over },
-    Rust(Arc<MakeProgram>),
+    pub(crate) kind: Arc<Kind>,
+    pub(crate) shaders: Shaders,
+    pub(crate) make: Make,
 }
 
 impl RegistryPass {
@@ -61,40 +64,70 @@ impl RegistryPass {
 }
 
 impl Registry {
-    /// Links and checks every pass: those of crates, and those of folders found at run time. A folder of the same name
-    /// as a crate's plugin replaces that plugin's embedded files, and one on an earlier search path wins over one on a
-    /// later path; two on one path are a mistake.
-    ///
-    /// # Errors
-    /// Every mistake of every manifest and shader.
-    pub fn new(
-        crates: Vec<Plugin>,
-        folders: Vec<Folder>,
-        shared: &Library,
-        scene_names: &[&str],
-    ) -> Result<Self, Diagnostics> {
-        let mut builder = Builder { registry: Self::default(), shared, scene_names, out: Diagnostics::default() };
-        let mut found = builder.manifests(folders);
-        for plugin in crates {
-            let replaced = found.iter().position(|(manifest, _)| manifest.name == plugin.name);
-            let entry = match replaced {
+    /// Reads the manifests of all plugins, those of crates and those of folders found at run time, and links nothing. A
+    /// folder of the same name as a crate's plugin replaces that plugin's embedded files, and one on an earlier search
+    /// path wins over one on a later path; two on one path are a mistake.
+    pub fn new(crates: Vec<Plugin>, folders: Vec<Folder>, shared: &Library, scene_names: &[&str]) -> Self {
+        let (mut found, mistakes) = found::winners(folders);
+        let mut registry = Self { mistakes, ..Self::default() };
+        for Plugin { name, folder, passes, references } in crates {
+            let replaced = found.iter().position(|found| found.name == name);
+            let files = match replaced {
                 Some(index) => Some(found.remove(index)),
-                None => builder.manifests(vec![plugin.folder]).pop(),
+                None => Found::read(folder, &name),
             };
-            if let Some((manifest, folder)) = entry {
-                builder.plugin(&manifest, &folder, plugin.passes);
-            }
-            for (pass, reference) in plugin.references {
-                if let Some(pass) = builder.registry.passes.get_mut(&pass) {
-                    pass.reference = Some(reference);
-                }
+            if let Some(files) = files {
+                registry.add(files, passes, references, (shared, scene_names));
             }
         }
-        for (manifest, folder) in found {
-            builder.plugin(&manifest, &folder, Vec::new());
+        for files in found {
+            registry.add(files, Vec::new(), Vec::new(), (shared, scene_names));
         }
-        builder.out.sort();
-        if builder.out.has_errors() { Err(builder.out) } else { Ok(builder.registry) }
+        registry
+    }
+
+    /// Adds the passes of a plugin.
+    fn add(
+        &mut self,
+        Found { name, is_named, manifest, folder, mistakes }: Found,
+        rust: Vec<RustPass>,
+        references: Vec<(String, Reference)>,
+        (shared, scene_names): (&Library, &[&str]),
+    ) {
+        self.mistakes.extend(mistakes.iter().cloned());
+        self.catalogue.insert_plugin(&name, folder.manifest_path(), mistakes.clone());
+        if !is_named {
+            self.catalogue.insert_unread(mistakes.clone());
+        }
+        let Some(manifest) = manifest else { return };
+        let linker = Arc::new(Linker {
+            library: folder.library(shared),
+            scene_names: scene_names.iter().map(|name| (*name).to_owned()).collect(),
+            references: references.into_iter().collect(),
+            manifest,
+            folder,
+            mistakes,
+        });
+        for (index, pass) in linker.manifest.passes.iter().enumerate() {
+            let of = linker.clone();
+            self.insert(format!("{name}.{}", pass.name), &linker, Box::new(move || of.data_pass(index)));
+        }
+        for pass in rust {
+            let of = linker.clone();
+            self.insert(pass.descriptor.name.clone(), &linker, Box::new(move || of.rust_pass(pass)));
+        }
+    }
+
+    /// Adds a pass; two of one name are both refused.
+    fn insert(&mut self, name: String, linker: &Linker, mut link: LinkPass) {
+        if self.passes.contains_key(&name) {
+            let duplicate = linker.duplicate(&name);
+            link = Box::new(|| Err(duplicate));
+        }
+        let pass = Arc::new(LazyLock::new(link));
+        let of = pass.clone();
+        self.catalogue.insert_lazy(&name, move || linked(&of).map(|pass| pass.kind.clone()).map_err(Clone::clone));
+        self.passes.insert(name, pass);
     }
 
     /// The descriptors, for validation.
@@ -109,23 +142,44 @@ impl Registry {
         self
     }
 
-    /// Every pass, sorted by name.
-    pub fn passes(&self) -> impl Iterator<Item = &RegistryPass> {
-        self.passes.values()
+    /// Every mistake of every plugin, those included that no graph uses: links every pass.
+    pub fn mistakes(&self) -> Diagnostics {
+        let mut all = self.mistakes.clone();
+        for mistakes in self.passes.values().filter_map(|pass| linked(pass).err()) {
+            all.extend(mistakes.iter().cloned());
+        }
+        all.sort();
+        all.dedup();
+        all
     }
 
-    /// The pass of this name.
+    /// Every sound pass, sorted by name: links every pass.
+    pub fn passes(&self) -> impl Iterator<Item = &RegistryPass> {
+        self.passes.values().filter_map(|pass| linked(pass).ok())
+    }
+
+    /// The pass of this name; where it or its plugin is broken, every mistake.
+    pub fn find(&self, name: &str) -> Option<Result<&RegistryPass, &Diagnostics>> {
+        match self.catalogue.get(name)? {
+            Ok(_) => self.pass(name).map(Ok),
+            Err(mistakes) => Some(Err(mistakes)),
+        }
+    }
+
+    /// The pass of this name, if there is a sound one: a pass of a graph is.
     pub fn pass(&self, name: &str) -> Option<&RegistryPass> {
-        self.passes.get(name)
+        self.passes.get(name).and_then(|pass| linked(pass).ok())
     }
 
     /// The same passes, but of one of them one shader replaced by another that binds and declares the same.
     #[must_use]
     pub fn with_shader(&self, pass: &str, file: &str, shader: &Arc<Linked>) -> Self {
         let mut registry = self.clone();
-        if let Some(pass) = registry.passes.get_mut(pass) {
+        if let Some(mut pass) = self.pass(pass).cloned() {
             pass.shaders.0.insert(file.to_owned(), shader.clone());
             pass.fingerprint = fingerprint(&pass.shaders, &pass.make);
+            let name = pass.descriptor.name.clone();
+            registry.passes.insert(name, Arc::new(LazyLock::new(Box::new(|| Ok(pass)))));
         }
         registry
     }
@@ -136,10 +190,15 @@ impl Registry {
     }
 }
 
+/// A pass, which is linked now if it has not been.
+fn linked(pass: &LazyPass) -> Result<&RegistryPass, &Diagnostics> {
+    LazyLock::force(pass).as_ref()
+}
+
 impl Programs for Registry {
     fn program(&self, setup: &mut Setup<'_>) -> Result<Box<dyn Program>, GpuError> {
         let name = &setup.pass.descriptor().name;
-        let pass = self.passes.get(name).ok_or_else(|| setup.pass.refuse(format!("`{name}` is not registered")))?;
+        let pass = self.pass(name).ok_or_else(|| setup.pass.refuse(format!("`{name}` is not registered")))?;
         match &pass.make {
             Make::Dispatch { file, over } => dispatch::make(setup, &pass.shaders, file, over),
             Make::Rust(make) => make(setup, &pass.shaders),
@@ -147,167 +206,6 @@ impl Programs for Registry {
     }
 
     fn shaders(&self, pass: &str) -> u64 {
-        self.passes.get(pass).map_or(0, |pass| pass.fingerprint)
+        self.pass(pass).map_or(0, |pass| pass.fingerprint)
     }
-}
-
-/// A pass before it is held against its shaders.
-struct Candidate {
-    descriptor: PassDescriptor,
-    shaders: Shaders,
-    make: Make,
-    needs: Vec<Need>,
-    limits: Vec<Limit>,
-}
-
-/// Collects passes and mistakes.
-struct Builder<'a> {
-    registry: Registry,
-    shared: &'a Library,
-    scene_names: &'a [&'a str],
-    out: Diagnostics,
-}
-
-impl Builder<'_> {
-    /// Reads the manifests of folders, which stand in order of search path. Of two plugins of one name the first is
-    /// taken; the second is a mistake where it is on the same path.
-    fn manifests(&mut self, folders: Vec<Folder>) -> Vec<(Manifest, Folder)> {
-        let mut found: Vec<(Manifest, Folder)> = Vec::new();
-        for folder in folders {
-            let Some(source) = folder.file(MANIFEST).cloned() else { continue };
-            let Some(manifest) = manifest::read(&source, &mut self.out) else { continue };
-            if let Some((first, holder)) = found.iter().find(|(other, _)| other.name == manifest.name) {
-                if holder.path < folder.path {
-                    continue;
-                }
-                let message = format!("there are two plugins named `{}`", manifest.name);
-                let problem = Diagnostic::error(DUPLICATE_PLUGIN, Place::File(source.name().to_owned()), message);
-                self.out.push(problem.relate(Place::File(first.source.name().to_owned()), "the first one"));
-                continue;
-            }
-            found.push((manifest, folder));
-        }
-        found
-    }
-
-    fn plugin(&mut self, manifest: &Manifest, folder: &Folder, rust: Vec<RustPass>) {
-        let library = folder.library(self.shared);
-        for pass in &manifest.passes {
-            self.data_pass(manifest, folder, &library, pass);
-        }
-        for pass in rust {
-            self.rust_pass(manifest, folder, &library, pass);
-        }
-    }
-
-    fn data_pass(&mut self, manifest: &Manifest, folder: &Folder, library: &Library, pass: &ManifestPass) {
-        let place = manifest.source.place(pass.shader_span);
-        let Some(shaders) = self.link(folder, library, &[pass.shader.as_str()], &place) else { return };
-        let Some(linked) = shaders.0.get(&pass.shader) else { return };
-        let before = self.out.len();
-        let descriptor =
-            ports::descriptor(&manifest.name, pass, &manifest.source, linked, self.scene_names, &mut self.out);
-        if self.out.len() > before {
-            return;
-        }
-        let over = match &pass.over {
-            Some((Over::Port(port), span)) if descriptor.port(port).is_none() => {
-                let message = format!("`dispatch` names `{port}`, which is no port of this pass");
-                self.out.push(Diagnostic::error(crate::codes::BAD_PORT, manifest.source.place(*span), message));
-                return;
-            }
-            Some((over, _)) => Some(over.clone()),
-            None => dispatch::default_over(&descriptor),
-        };
-        let Some(over) = over else {
-            let place = manifest.source.place(pass.name_span);
-            self.out.push(Diagnostic::error(
-                crate::codes::BAD_PORT,
-                place,
-                "the pass has no output, so nothing to run over",
-            ));
-            return;
-        };
-        let make = Make::Dispatch { file: pass.shader.clone(), over };
-        let place = manifest.source.place(pass.name_span);
-        let (needs, limits) = (ports::needs(pass), pass.limits.clone());
-        self.insert(manifest, folder, Candidate { descriptor, shaders, make, needs, limits }, &place);
-    }
-
-    fn rust_pass(&mut self, manifest: &Manifest, folder: &Folder, library: &Library, pass: RustPass) {
-        let place = Place::File(manifest.source.name().to_owned());
-        let Some(shaders) = self.link(folder, library, &pass.shaders, &place) else { return };
-        let make = Make::Rust(Arc::from(pass.make));
-        let candidate = Candidate { descriptor: pass.descriptor, shaders, make, needs: Vec::new(), limits: Vec::new() };
-        self.insert(manifest, folder, candidate, &place);
-    }
-
-    fn link(&mut self, folder: &Folder, library: &Library, files: &[&str], place: &Place) -> Option<Shaders> {
-        let mut shaders = Shaders::default();
-        for file in files {
-            let Some(source) = folder.file(file) else {
-                let message = format!("the plugin's folder holds no `{file}`");
-                let problem = Diagnostic::error(MISSING_SHADER, place.clone(), message);
-                self.out.push(problem.suggest_near(file, folder.files.keys().map(String::as_str)));
-                return None;
-            };
-            match link(source, library) {
-                Ok(linked) => shaders.0.insert((*file).to_owned(), Arc::new(linked)),
-                Err(problems) => {
-                    self.out.extend(problems);
-                    return None;
-                }
-            };
-        }
-        Some(shaders)
-    }
-
-    /// Holds a pass against its shaders, and registers it where they agree.
-    fn insert(&mut self, manifest: &Manifest, folder: &Folder, candidate: Candidate, place: &Place) {
-        let Candidate { descriptor, shaders, make, needs, limits } = candidate;
-        let linked: Vec<_> = shaders.0.values().map(AsRef::as_ref).collect();
-        if !linked.is_empty() {
-            let mut built = descriptor.clone();
-            built.params.retain(|param| param.name != PRESET || built.presets.is_empty());
-            let problems = check_all(&linked, &built, self.scene_names, &[]);
-            if !problems.is_empty() {
-                self.out.extend(problems);
-                return;
-            }
-        }
-        let descriptor = Arc::new(descriptor);
-        if let Err(errors) = self.registry.catalogue.insert(descriptor.clone()) {
-            for error in errors {
-                self.out.push(Diagnostic::error(BAD_DESCRIPTOR, place.clone(), error.to_string()));
-            }
-            return;
-        }
-        let fingerprint = fingerprint(&shaders, &make);
-        let pass = RegistryPass {
-            descriptor: descriptor.clone(),
-            version: manifest.version,
-            plugin_about: manifest.about.clone(),
-            origin: folder.origin.clone(),
-            needs,
-            limits,
-            fingerprint,
-            reference: None,
-            shaders,
-            make,
-        };
-        self.registry.passes.insert(descriptor.name.clone(), pass);
-    }
-}
-
-/// Of the shaders, each in its place, and of what the manifest says they run over.
-fn fingerprint(shaders: &Shaders, make: &Make) -> u64 {
-    let mut digest = Digest::default();
-    for (file, linked) in &shaders.0 {
-        digest.text(file);
-        digest.number(linked.fingerprint);
-    }
-    if let Make::Dispatch { over, .. } = make {
-        digest.text(&format!("{over:?}"));
-    }
-    digest.finish()
 }

@@ -21,7 +21,7 @@ pub struct SearchPath {
 /// name wins is [`crate::Registry::new`]'s to say, since names stand in manifests.
 ///
 /// # Errors
-/// Folders that cannot be read, and required paths without a plugin.
+/// Required paths without a plugin. What cannot be read in a folder is a mistake of its plugin.
 pub fn find_folders(paths: &[SearchPath]) -> Result<Vec<Folder>, Vec<Diagnostic>> {
     let (mut found, mut problems) = (Vec::new(), Vec::new());
     let mut seen = Vec::new();
@@ -38,10 +38,7 @@ pub fn find_folders(paths: &[SearchPath]) -> Result<Vec<Folder>, Vec<Diagnostic>
                 continue;
             }
             seen.push(identity);
-            match Folder::read(&folder) {
-                Ok(folder) => found.push(Folder { path: index, ..folder }),
-                Err(problem) => problems.push(problem),
-            }
+            found.push(Folder { path: index, ..Folder::read(&folder) });
         }
     }
     if problems.is_empty() { Ok(found) } else { Err(problems) }

@@ -32,9 +32,7 @@ fn run(source: &Arc<Source>) -> Diagnostics {
     if first == "// twice" {
         folders.push(folder("again"));
     }
-    if let Err(mistakes) = Registry::new(Vec::new(), folders, &Library::default(), &[]) {
-        out.extend(mistakes);
-    }
+    out.extend(Registry::new(Vec::new(), folders, &Library::default(), &[]).mistakes());
     out
 }
 

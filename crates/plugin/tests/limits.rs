@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use tyndall_document::{Diagnostics, render_text};
+use tyndall_document::render_text;
 use tyndall_plugin::{Folder, Registry, SceneFeature};
 use tyndall_shader::Library;
 
@@ -19,8 +19,9 @@ fn registry(limits: &str) -> Result<Registry, Arc<str>> {
 }})"
     );
     let folder = Folder::embedded("test", &[("plugin.ron", &manifest), ("pass.wgsl", SHADER)]);
-    let text = |mistakes: Diagnostics| render_text(&mistakes, false).into();
-    Registry::new(Vec::new(), vec![folder], &Library::default(), &[]).map_err(text)
+    let registry = Registry::new(Vec::new(), vec![folder], &Library::default(), &[]);
+    let mistakes = registry.mistakes();
+    if mistakes.is_empty() { Ok(registry) } else { Err(render_text(&mistakes, false).into()) }
 }
 
 #[test]

@@ -13,29 +13,30 @@ use crate::cli::{Arguments, Passes};
 use crate::failure::Failure;
 use crate::{plugins, terminal};
 
+/// Every sound pass, and then every mistake of those that are not; or one pass.
 pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Passes) -> Result<(), Failure> {
     let registry = plugins::registry(app, arguments, &[])?;
-    let passes: Vec<&RegistryPass> = match &verb.name {
-        None => registry.passes().collect(),
-        Some(name) => match registry.pass(name) {
-            Some(pass) => vec![pass],
-            None => {
-                let near = registry.near(name).map(|near| format!("; {}", did_you_mean(near))).unwrap_or_default();
-                return Err(Failure::Usage(format!("there is no pass `{name}`{near}")));
-            }
-        },
+    let Some(name) = &verb.name else {
+        let passes: Vec<&RegistryPass> = registry.passes().collect();
+        if verb.json {
+            terminal::line(&format!("{:#}", passes.iter().map(|pass| as_json(pass)).collect::<Value>()));
+        } else {
+            terminal::text(&list(&passes));
+        }
+        let mistakes = registry.mistakes();
+        return if mistakes.has_errors() { Err(mistakes.into()) } else { Ok(()) };
+    };
+    let pass = match registry.find(name) {
+        Some(found) => found.map_err(Clone::clone)?,
+        None => {
+            let near = registry.near(name).map(|near| format!("; {}", did_you_mean(near))).unwrap_or_default();
+            return Err(Failure::Usage(format!("there is no pass `{name}`{near}")));
+        }
     };
     if verb.json {
-        let all: Vec<Value> = passes.iter().map(|pass| as_json(pass)).collect();
-        let value = match (&verb.name, all.as_slice()) {
-            (Some(_), [one]) => one.clone(),
-            _ => Value::Array(all),
-        };
-        terminal::line(&format!("{value:#}"));
-    } else if verb.name.is_some() {
-        passes.iter().for_each(|pass| terminal::text(&document(pass)));
+        terminal::line(&format!("{:#}", as_json(pass)));
     } else {
-        terminal::text(&list(&passes));
+        terminal::text(&document(pass));
     }
     Ok(())
 }

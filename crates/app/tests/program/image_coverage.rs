@@ -24,6 +24,7 @@ fn tests() -> Vec<TestFile> {
 #[test]
 fn every_pass_has_an_image_test_and_a_property() {
     let registry = tyndall_render::registry(tyndall::shipped().iter().map(|plugin| plugin()).collect(), &[]).unwrap();
+    assert!(registry.mistakes().is_empty());
     let (mut with_golden, mut with_property) = (BTreeSet::new(), BTreeSet::new());
     for file in tests() {
         let mut out = Diagnostics::default();

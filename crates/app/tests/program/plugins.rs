@@ -160,3 +160,26 @@ fn broken_manifests_are_mistakes() {
         assert!(ended.err.contains("plugin.ron"), "{manifest}: {}", ended.err);
     }
 }
+
+/// One that no graph uses is told by `passes`, which lists the others.
+#[test]
+fn a_broken_plugin_stops_the_graphs_that_use_it() {
+    let shader = SHADER.replace("params.level - color", "params.level - colour");
+    for (file, text, place, codes) in [
+        ("plugin.ron", "(name: \"tint\",", "plugin.ron:1:", [2, 2]),
+        ("invert.wgsl", &shader, "invert.wgsl:13:", [3, 3]),
+    ] {
+        let desk = desk("plugins", SHADER);
+        desk.put(&format!("plugins/tint/{file}"), text);
+        desk.ends(0, &["check", "fog.graph.ron"]);
+        desk.ends(0, &["render", "fog.graph.ron", "--size", "8x6"]);
+        desk.ends(0, &["passes", "core.add"]);
+        assert!(desk.ends(2, &["check", "here/tint.graph.ron"]).err.contains(place));
+        assert!(desk.ends(codes[0], &["render", "here/tint.graph.ron", "--size", "8x6"]).err.contains(place));
+        for arguments in [&["passes"][..], &["passes", "--json"], &["passes", "tint.invert"]] {
+            let listed = desk.ends(codes[1], arguments);
+            assert!(listed.err.contains(place), "{}", listed.err);
+            assert_eq!(listed.out.contains("core.add"), arguments.len() == 1 || arguments[1] == "--json");
+        }
+    }
+}

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
-use tyndall_document::{Diagnostic, MISSING_FILE, Place, Span};
+use tyndall_document::{Diagnostic, Diagnostics, MISSING_FILE, Place, Span};
 
 use super::Request;
 use super::mistakes::Mistakes;
@@ -54,17 +54,34 @@ impl<'a> Scope<'a> {
         out: &mut Mistakes,
     ) -> Handle<Kind> {
         let text = name.map_or("", |name| self.file.text(name));
-        if let Some(found) = self.request.catalogue.kind(text) {
-            let kind = self.passes.kinds.push(found.clone());
-            kinds.insert(text, kind);
-            return kind;
-        }
-        if let Some(name) = name {
-            let message = format!("there is no pass `{text}`");
-            let code = (codes::UNKNOWN_PASS, self.place(name.span));
-            out.report_unknown(code, message, text, self.request.catalogue.names(), str::to_owned);
+        match (self.request.catalogue.kind(text), name) {
+            (Some(Ok(found)), _) => {
+                let kind = self.passes.kinds.push(found.clone());
+                kinds.insert(text, kind);
+                return kind;
+            }
+            (Some(Err(mistakes)), Some(name)) => self.broken_pass(name, mistakes, out),
+            (None, Some(name)) => self.unknown_pass(name, out),
+            (_, None) => {}
         }
         self.passes.kinds.push(Arc::new(unknown_kind()))
+    }
+
+    fn unknown_pass(&self, name: &Text, out: &mut Mistakes) {
+        let (catalogue, code) = (self.request.catalogue, (codes::UNKNOWN_PASS, self.place(name.span)));
+        let name = self.file.text(name);
+        let within = catalogue.manifest_of(name).map(|file| format!(" in {file}")).unwrap_or_default();
+        let message = format!("there is no pass `{name}`{within}");
+        out.report_unknown(code, message, name, catalogue.names(), str::to_owned);
+        out.extend(catalogue.unread().iter().cloned());
+    }
+
+    /// Reports what is wrong with a pass, and that this graph uses it.
+    fn broken_pass(&self, name: &Text, mistakes: &Diagnostics, out: &mut Mistakes) {
+        let message = format!("`{}` is used here", self.file.text(name));
+        for mistake in mistakes {
+            out.report(mistake.clone().relate(self.place(name.span), message.clone()));
+        }
     }
 
     /// Whether the kind of a pass is of the catalogue: nothing is demanded of one whose kind is not known.

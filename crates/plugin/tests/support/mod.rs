@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use tempfile::TempDir;
-use tyndall_document::{Diagnostic, Diagnostics, Source, render_text};
+use tyndall_document::{Diagnostics, Source, render_text};
 use tyndall_gpu::{Executor, FrameOptions, Gpu, PipelineCache, PortData, SceneBuffers};
 use tyndall_graph::{Graph, Overrides, Plan, PlanOptions, plan, read, validate};
 use tyndall_plugin::{Plugin, Registry, SearchPath, find_folders, shader_modules};
@@ -25,20 +25,21 @@ pub fn shipped() -> Vec<Plugin> {
     ]
 }
 
-/// The shipped plugins, and those of these folders of plugins.
-pub fn try_registry(paths: &[&Path]) -> Result<Registry, Diagnostics> {
+/// The shipped plugins, and those of these folders of plugins; nothing is linked.
+pub fn unchecked_registry(paths: &[&Path]) -> Registry {
     let paths: Vec<SearchPath> =
         paths.iter().map(|path| SearchPath { path: path.to_path_buf(), required: true }).collect();
-    let folders = find_folders(&paths).map_err(collected)?;
-    let shared = shader_modules(tyndall_shaders::MODULES, &[]).map_err(collected)?;
-    let registry = Registry::new(shipped(), folders, &shared, SCENE_DATA)?;
-    Ok(registry.with_picture_size(|path| tyndall_image::read(path).ok().map(|image| (image.width, image.height))))
+    let folders = find_folders(&paths).unwrap();
+    let shared = shader_modules(tyndall_shaders::MODULES, &[]).unwrap();
+    let registry = Registry::new(shipped(), folders, &shared, SCENE_DATA);
+    registry.with_picture_size(|path| tyndall_image::read(path).ok().map(|image| (image.width, image.height)))
 }
 
-fn collected(mistakes: Vec<Diagnostic>) -> Diagnostics {
-    let mut out = Diagnostics::default();
-    out.extend(mistakes);
-    out
+/// The same, with every pass linked and checked.
+pub fn try_registry(paths: &[&Path]) -> Result<Registry, Diagnostics> {
+    let registry = unchecked_registry(paths);
+    let mistakes = registry.mistakes();
+    if mistakes.is_empty() { Ok(registry) } else { Err(mistakes) }
 }
 
 pub fn registry(paths: &[&Path]) -> Registry {

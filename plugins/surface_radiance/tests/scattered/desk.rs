@@ -96,8 +96,7 @@ impl Desk {
         std::fs::write(folder.join("turn.wgsl"), SHADER).unwrap();
         let folders = find_folders(&[SearchPath { path: plugins.path().to_path_buf(), required: true }]).unwrap();
         let shared = shader_modules(tyndall_shaders::MODULES, &[]).unwrap();
-        let registry = Registry::new(vec![tyndall_surface_radiance::plugin()], folders, &shared, SCENE_DATA)
-            .unwrap_or_else(|mistakes| panic!("{}", render_text(&mistakes, false)));
+        let registry = Registry::new(vec![tyndall_surface_radiance::plugin()], folders, &shared, SCENE_DATA);
         let turns: String = shininesses
             .iter()
             .enumerate()
