@@ -5,16 +5,14 @@
 
 use crate::cone::{ray_in_cone, spot_falloff};
 use crate::medium::opacity;
-use crate::phase::phase;
-use crate::quadrature::integrate;
+use crate::phase::{kinks, phase};
+use crate::quadrature::integrate_pieces;
 use crate::ray::Ray;
-use crate::scene::{Light, Medium, Phase};
+use crate::scene::{Light, Medium};
 use glam::DVec3;
 
 /// Relative error that is asked of the adaptive rule.
 const TOLERANCE: f64 = 1e-11;
-/// The same where the phase function is a table, which is not smooth at its rows.
-const TABLE_TOLERANCE: f64 = 1e-7;
 
 /// Light of one light scattered once toward the eye between `near` and `far` metres along the ray, W/(sr m²) per channel.
 /// `far` may be infinite. The light's distance from the ray is floored at its radius, and at 1e-6 of its distance.
@@ -82,23 +80,20 @@ impl Beside {
         far: f64,
         parts: &[[f64; 2]],
     ) -> DVec3 {
-        let channel = |i: usize| {
-            let extinction = medium.extinction[i];
-            let light = |u: f64| {
-                let w = 1.0 / (1.0 + (-2.0 * u).exp());
-                let path = self.t + self.h * u.exp();
-                phase(&medium.phase, w) * falloff(u) * (-extinction * path).exp() / u.cosh()
-            };
-            let tolerance = if matches!(medium.phase, Phase::Measured(_)) { TABLE_TOLERANCE } else { TOLERANCE };
-            let part = |part: &[f64; 2]| {
-                let (start, end) = (self.u(near).max(part[0]), self.u(far).min(part[1]));
-                // where the exponent has grown by 60 nothing is left
-                let last = (start.exp() + 60.0 / (extinction * self.h)).ln();
-                let end = end.min(last);
-                if end > start { integrate(light, start, end, tolerance) } else { 0.0 }
-            };
-            if extinction == 0.0 { 0.0 } else { parts.iter().map(part).sum::<f64>() * extinction / self.h }
+        let light = |u: f64| {
+            // w = 1/(1 + e^(-2u)), 1/cosh u = 2/(e^u + e^(-u))
+            let v = u.exp();
+            let scattered = phase(&medium.phase, v * v / (1.0 + v * v)) * falloff(u) * 2.0 / (v + 1.0 / v);
+            scattered * (-medium.extinction * (self.t + self.h * v)).exp()
         };
-        medium.albedo * DVec3::new(channel(0), channel(1), channel(2))
+        let kinks = kinks(&medium.phase);
+        let part = |part: &[f64; 2]| {
+            let (start, end) = (self.u(near).max(part[0]), self.u(far).min(part[1]));
+            // where the exponent has grown by 60 nothing is left
+            let last = (start.exp() + 60.0 / (medium.least_extinction() * self.h)).ln();
+            let end = end.min(last);
+            if end > start { integrate_pieces(light, start, end, &kinks, TOLERANCE) } else { DVec3::ZERO }
+        };
+        medium.scattering() / self.h * parts.iter().map(part).sum::<DVec3>()
     }
 }

@@ -2,9 +2,10 @@
 //!
 //! In x = ln τ, `H(u, θ) = ∫ p(w)·e^(−u·eˣ)/cosh x dx` with w = 1/(1 + e^(−2x)): no peak is narrow.
 
-use crate::phase::phase;
-use crate::quadrature::integrate;
+use crate::phase::{kinks, phase};
+use crate::quadrature::{Value, integrate, integrate_pieces};
 use crate::scene::Phase;
+use glam::DVec4;
 use std::f64::consts::{FRAC_PI_4, PI};
 
 /// Relative error that is asked of the adaptive rule.
@@ -15,15 +16,12 @@ pub(crate) const ENDLESS: f64 = 40.0;
 
 /// H(u, θ), 1/sr, θ in radians from −π/2 to π/2 (Hong 2006, eq. 4.7).
 pub fn h(kind: &Phase, u: f64, theta: f64) -> f64 {
-    integral(|w| phase(kind, w), u, theta)
+    integral(|w| phase(kind, w), &kinks(kind), u, theta)
 }
 
 /// H_0 to H_3 of the same arguments (Hong 2006, eq. 4.17).
 pub fn h_k(u: f64, theta: f64) -> [f64; 4] {
-    // never below 0 with 1 added, so no integral cancels; H_0 is what that adds
-    let all = integral(|_| 1.0, u, theta);
-    let rest = |k: usize| integral(|w| legendre_polynomials(1.0 - 2.0 * w)[k] + 1.0, u, theta) - all;
-    [all, rest(1), rest(2), rest(3)]
+    legendre_terms(integral(raised_polynomials, &[], u, theta))
 }
 
 /// Biri's Γ(λ, γ) as the paper writes it, over an angle from 0 (Biri, Arques and Michelin 2006, eq. 6, its exponent without
@@ -67,15 +65,30 @@ impl Table<'_> {
     }
 }
 
+/// 1, and P_1 to P_3 at w with 1 added: never below 0, so that no integral of them cancels.
+pub(crate) fn raised_polynomials(w: f64) -> DVec4 {
+    DVec4::from_array(legendre_polynomials(1.0 - 2.0 * w)) + DVec4::new(0.0, 1.0, 1.0, 1.0)
+}
+
+/// Integrals of the polynomials from those of [`raised_polynomials`].
+pub(crate) fn legendre_terms(raised: DVec4) -> [f64; 4] {
+    let [all, first, second, third] = raised.to_array();
+    [all, first - all, second - all, third - all]
+}
+
 /// P_0 to P_3.
 pub fn legendre_polynomials(mu: f64) -> [f64; 4] {
     [1.0, mu, 1.5 * mu * mu - 0.5, mu * (2.5 * mu * mu - 1.5)]
 }
 
-fn integral(f: impl Fn(f64) -> f64, u: f64, theta: f64) -> f64 {
+fn integral<V: Value>(f: impl Fn(f64) -> V, kinks: &[f64], u: f64, theta: f64) -> V {
     let end = (theta / 2.0 + FRAC_PI_4).tan().ln().min(ENDLESS);
-    let integrand = |x: f64| f(1.0 / (1.0 + (-2.0 * x).exp())) * (-u * x.exp()).exp() / x.cosh();
-    if end > -ENDLESS { integrate(integrand, end.min(0.0) - ENDLESS, end, TOLERANCE) } else { 0.0 }
+    let integrand = |x: f64| f(1.0 / (1.0 + (-2.0 * x).exp())) * ((-u * x.exp()).exp() / x.cosh());
+    if end > -ENDLESS {
+        integrate_pieces(integrand, end.min(0.0) - ENDLESS, end, kinks, TOLERANCE)
+    } else {
+        V::default()
+    }
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use crate::cone::spot_falloff;
 use crate::medium::{density, effective_way, opacity};
-use crate::phase::phase;
-use crate::quadrature::integrate;
+use crate::phase::{kinks, phase};
+use crate::quadrature::{integrate, integrate_pieces};
 use crate::ray::Ray;
 use crate::scene::{HeightFog, Light, Medium};
 use glam::DVec3;
@@ -35,23 +35,19 @@ pub fn airlight(light: &Light, medium: &Medium, fog: &HeightFog, ray: &Ray, way:
                 }
                 _ => 1.0,
             };
-            let channel = |i: usize| {
-                let extinction = medium.extinction[i];
-                // x = t + h sinh u, r = h cosh u, w = 1/(1 + e^(-2u)): no peak at the light, nothing cancels
-                let at = |u: f64| {
-                    let (x, r, w) = (t + h * u.sinh(), h * u.cosh(), 1.0 / (1.0 + (-2.0 * u).exp()));
-                    let point = ray.at(x);
-                    let to_light = effective_way(fog, point.y, (position.y - point.y) / r, r);
-                    let ways = effective_way(fog, height, climb, x) + to_light;
-                    // in one exponent: deep in the fog the density is beyond all bounds
-                    let left = ((fog.base_height - point.y) * fog.falloff - extinction * ways).exp();
-                    falloff(point) * phase(&medium.phase, w) * left / r
-                };
-                let u = |x: f64| ((x - t) / h).asinh();
-                let sum = integrate(at, u(0.0), u(way.min(far(fog, ray, extinction))), TOLERANCE);
-                medium.albedo[i] * extinction * intensity[i] * sum
+            // x = t + h sinh u, r = h cosh u, w = 1/(1 + e^(-2u)): no peak at the light, nothing cancels
+            let at = |u: f64| {
+                let (x, r, w) = (t + h * u.sinh(), h * u.cosh(), 1.0 / (1.0 + (-2.0 * u).exp()));
+                let point = ray.at(x);
+                let to_light = effective_way(fog, point.y, (position.y - point.y) / r, r);
+                let ways = effective_way(fog, height, climb, x) + to_light;
+                // in one exponent: deep in the fog the density is beyond all bounds
+                let exponent = DVec3::splat((fog.base_height - point.y) * fog.falloff) - medium.extinction * ways;
+                exponent.exp() * (falloff(point) * phase(&medium.phase, w) / r)
             };
-            DVec3::new(channel(0), channel(1), channel(2))
+            let u = |x: f64| ((x - t) / h).asinh();
+            let end = way.min(far(fog, ray, medium.least_extinction()));
+            medium.scattering() * intensity * integrate_pieces(at, u(0.0), u(end), &kinks(&medium.phase), TOLERANCE)
         }
     }
 }
@@ -69,18 +65,14 @@ fn sunlit(medium: &Medium, fog: &HeightFog, ray: &Ray, way: f64, sine: f64) -> D
     if sine <= 0.0 {
         return DVec3::ZERO;
     }
-    let channel = |i: usize| {
-        let extinction = medium.extinction[i];
-        // x = e^s - 1: the fog may be near and the end far away
-        let at = |s: f64| {
-            let x = s.exp_m1();
-            let depth = (fog.base_height - ray.at(x).y) * fog.falloff;
-            let ways = effective_way(fog, ray.origin.y, ray.direction.y, x) + depth.exp() / (fog.falloff * sine);
-            extinction * (depth - extinction * ways + s).exp()
-        };
-        integrate(at, 0.0, way.min(far(fog, ray, extinction)).ln_1p(), TOLERANCE)
+    // x = e^s - 1: the fog may be near and the end far away
+    let at = |s: f64| {
+        let x = s.exp_m1();
+        let depth = (fog.base_height - ray.at(x).y) * fog.falloff;
+        let ways = effective_way(fog, ray.origin.y, ray.direction.y, x) + depth.exp() / (fog.falloff * sine);
+        medium.extinction * (DVec3::splat(depth + s) - medium.extinction * ways).exp()
     };
-    DVec3::new(channel(0), channel(1), channel(2))
+    integrate(at, 0.0, way.min(far(fog, ray, medium.least_extinction())).ln_1p(), TOLERANCE)
 }
 
 #[cfg(test)]

@@ -31,6 +31,15 @@ pub fn phase(phase: &Phase, w: f64) -> f64 {
     }
 }
 
+/// Where a phase function is not smooth, in u with w = 1/(1 + e^(−2u)): at the rows of a table.
+pub fn kinks(phase: &Phase) -> Vec<f64> {
+    match phase {
+        // e^u = tan(θ/2)
+        Phase::Measured(table) => table.angles().iter().map(|angle| (angle / 2.0).tan().ln()).collect(),
+        _ => Vec::new(),
+    }
+}
+
 /// Parameters of the mixture of Henyey and Greenstein's function and Draine's, after Jendersie and d'Eon 2023.
 struct Droplets {
     /// g of Henyey and Greenstein's function: the diffraction peak.
@@ -55,7 +64,8 @@ fn droplets(diameter: f64) -> Droplets {
 
 /// 1 + g² − 2gµ = (1 − g)² + 4gw, which does not cancel near µ = 1.
 fn henyey_greenstein(g: f64, w: f64) -> f64 {
-    (1.0 - g) * (1.0 + g) / (4.0 * PI * ((1.0 - g).powi(2) + 4.0 * g * w).powf(1.5))
+    let q = (1.0 - g).powi(2) + 4.0 * g * w;
+    (1.0 - g) * (1.0 + g) / (4.0 * PI * q * q.sqrt())
 }
 
 /// One lobe of a phase function: twin of `Lobe` of `scene.wgsl`, `scale·q^(−3/2 or −2)·(1 + mu_squared·µ²)` with

@@ -98,6 +98,11 @@ impl PhaseTable {
         self.values[row] + (self.values[row + 1] - self.values[row]) * along
     }
 
+    /// The scattering angles of its rows, rad, ascending from 0 to π.
+    pub fn angles(&self) -> &[f64] {
+        &self.angles
+    }
+
     /// Mean of a function of µ over it.
     pub fn mean(&self, of: impl Fn(f64) -> f64) -> f64 {
         const WIDEST: f64 = PI / 90.0;

@@ -113,6 +113,11 @@ impl Medium {
     pub fn scattering(&self) -> DVec3 {
         self.albedo * self.extinction
     }
+
+    /// σ_t of the channel in which light goes farthest of those that have any, 1/m; infinite where none has.
+    pub fn least_extinction(&self) -> f64 {
+        self.extinction.to_array().into_iter().filter(|extinction| *extinction > 0.0).fold(f64::INFINITY, f64::min)
+    }
 }
 
 /// How the density of a medium falls with the height y: `e^(−(y − base_height)·falloff)`. Twin of `HeightFog`.

@@ -1,8 +1,8 @@
 //! Hong's J and J_k by nested adaptive quadrature: twin of `surface_table.wgsl`, whose glossary this follows.
 
-use crate::airlight_table::{ENDLESS, legendre_polynomials};
-use crate::phase::phase;
-use crate::quadrature::integrate;
+use crate::airlight_table::{ENDLESS, legendre_terms, raised_polynomials};
+use crate::phase::{kinks, phase};
+use crate::quadrature::{Value, integrate, integrate_pieces};
 use crate::scene::Phase;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -12,19 +12,16 @@ const TOLERANCE_WITHIN: f64 = 1e-10;
 
 /// J(T, θ_s), sr⁻¹·sr, of the lobe cosⁿ; θ_s in radians from 0 to π (Hong 2006, eq. 4.13 and 4.14).
 pub fn j(kind: &Phase, n: f64, depth: f64, angle: f64) -> f64 {
-    integral(&|w| phase(kind, w), n, depth, angle)
+    integral(&|w| phase(kind, w), &kinks(kind), n, depth, angle)
 }
 
 /// J_0 to J_3 of the same arguments (Hong 2006, eq. 4.19).
 pub fn j_k(n: f64, depth: f64, angle: f64) -> [f64; 4] {
-    // never below 0 with 1 added, so no integral cancels; J_0 is what that adds
-    let all = integral(&|_| 1.0, n, depth, angle);
-    let rest = |k: usize| integral(&|w| legendre_polynomials(1.0 - 2.0 * w)[k] + 1.0, n, depth, angle) - all;
-    [all, rest(1), rest(2), rest(3)]
+    legendre_terms(integral(&raised_polynomials, &[], n, depth, angle))
 }
 
-fn integral(f: &dyn Fn(f64) -> f64, n: f64, depth: f64, angle: f64) -> f64 {
-    let ring = |gamma: f64| lobe_over_circle(gamma, angle, n) * along(f, depth, gamma);
+fn integral<V: Value>(f: &impl Fn(f64) -> V, kinks: &[f64], n: f64, depth: f64, angle: f64) -> V {
+    let ring = |gamma: f64| along(f, kinks, depth, gamma) * lobe_over_circle(gamma, angle, n);
     // the lobe's edge cuts a ring between the second and the third
     let edges = [
         (angle - FRAC_PI_2).max(0.0),
@@ -46,13 +43,13 @@ fn lobe_over_circle(gamma: f64, angle: f64, n: f64) -> f64 {
 }
 
 /// A(γ).
-fn along(f: &dyn Fn(f64) -> f64, depth: f64, gamma: f64) -> f64 {
+fn along<V: Value>(f: &impl Fn(f64) -> V, kinks: &[f64], depth: f64, gamma: f64) -> V {
     let start = (gamma / 2.0).tan();
     let integrand = |x: f64| {
         let w = 1.0 / (1.0 + (-2.0 * x).exp());
-        f(w) * (-depth * gamma.sin() * (x.exp() - start)).exp() / x.cosh()
+        f(w) * ((-depth * gamma.sin() * (x.exp() - start)).exp() / x.cosh())
     };
-    (-depth).exp() * integrate(integrand, start.ln().max(-ENDLESS), ENDLESS, TOLERANCE_WITHIN)
+    integrate_pieces(integrand, start.ln().max(-ENDLESS), ENDLESS, kinks, TOLERANCE_WITHIN) * (-depth).exp()
 }
 
 #[cfg(test)]

@@ -18,7 +18,9 @@ use std::process::Command;
 use std::time::Instant;
 
 use glam::DVec3;
+use rayon::prelude::*;
 use tyndall_compare::{Point, Unit, curves};
+use tyndall_plugin::each_texel;
 use tyndall_scene::{SCENE_DATA, Scene};
 use tyndall_shaders::airlight::airlight;
 use tyndall_shaders::lights::incident;
@@ -212,9 +214,9 @@ impl Bench {
     fn truth(&self, scene: &Twin) -> Vec<Seen> {
         self.planes();
         let depth = self.read("depth");
-        in_two_threads(&(0..depth.data.len()).collect::<Vec<usize>>(), &|index| {
-            let at = [*index as u32 % SMALL[0], *index as u32 / SMALL[0]];
-            let (ray, way) = (ray_of_pixel(&scene.camera, at, SMALL), f64::from(depth.data[*index]));
+        each_texel([SMALL[0], SMALL[1], 1], |[x, y, _]| {
+            let (ray, way) = (ray_of_pixel(&scene.camera, [x, y], SMALL), depth.data[(y * SMALL[0] + x) as usize]);
+            let way = f64::from(way);
             let lit: Vec<_> =
                 scene.lights.iter().map(|light| lit_intervals(light, &scene.casters, &ray, way)).collect();
             let of_light = |(light, lit): (&Light, &Vec<[f64; 2]>)| {
@@ -278,7 +280,7 @@ impl Bench {
         let planes_ms = self.time();
         let (first_ms, slices_ms, mebibytes) = self.slices();
         let march = STEPS.map(|steps| {
-            let marched = in_two_threads(&truth, &|seen| march(&scene, seen, steps));
+            let marched: Vec<f64> = truth.par_iter().map(|seen| march(&scene, seen, steps)).collect();
             (steps, crate::error(&truth, marched.into_iter()))
         });
         self.march();
@@ -460,16 +462,6 @@ fn march(scene: &Twin, seen: &Seen, steps: u32) -> f64 {
 
 /// Where `march.airlight` ends.
 const MARCH_DEPTH: f64 = 16.0;
-
-fn in_two_threads<T: Sync, R: Send>(items: &[T], of: &(impl Fn(&T) -> R + Sync)) -> Vec<R> {
-    let (first, second) = items.split_at(items.len() / 2);
-    let all = |items: &[T]| items.iter().map(of).collect::<Vec<R>>();
-    std::thread::scope(|scope| {
-        let first = scope.spawn(|| all(first));
-        let second = all(second);
-        first.join().unwrap().into_iter().chain(second).collect()
-    })
-}
 
 const LAMP: &str = "Point(position: (-1.7, 3.3, -7.2), intensity: (100.0, 90.0, 70.0))";
 

@@ -1,10 +1,7 @@
 //! The reference that pictures are compared with: light in double precision, by the twins of the shaders.
 
-use std::num::NonZero;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU32, Ordering};
-
 use glam::DVec3;
+use rayon::prelude::*;
 use tyndall_gpu::PortData;
 use tyndall_shaders::airlight::airlight;
 use tyndall_shaders::medium::transmittance;
@@ -136,27 +133,14 @@ pub(crate) struct Seen<'a> {
 }
 
 impl Truth {
-    /// Of a scene. Calls `row_done` after each row. Rows are shared out among the processors.
+    /// Of a scene. Calls `row_done` after each row. Rows are spread over the cores.
     pub fn new(output: Output, seen: Seen<'_>, (width, height): (u32, u32), row_done: &(dyn Fn() + Sync)) -> Self {
-        let rows = Mutex::new(vec![Vec::new(); height as usize]);
-        let next = AtomicU32::new(0);
-        let work = || {
-            loop {
-                let y = next.fetch_add(1, Ordering::Relaxed);
-                if y >= height {
-                    break;
-                }
-                let row: Vec<_> = (0..width).map(|x| seen.pixel(output, [x, y], [width, height])).collect();
-                rows.lock().unwrap_or_else(|poisoned| poisoned.into_inner())[y as usize] = row;
-                row_done();
-            }
+        let row = |y: u32| -> Vec<_> {
+            let row = (0..width).map(|x| seen.pixel(output, [x, y], [width, height])).collect();
+            row_done();
+            row
         };
-        std::thread::scope(|scope| {
-            for _ in 0..std::thread::available_parallelism().map_or(1, NonZero::get) {
-                scope.spawn(work);
-            }
-        });
-        let rows = rows.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+        let rows: Vec<Vec<_>> = (0..height).into_par_iter().map(row).collect();
         let (pixels, outlined): (Vec<DVec3>, Vec<Outlined>) = rows.into_iter().flatten().unzip();
         let edges = seen.casters.map(|_| edges(&outlined, width as usize));
         Self { pixels, edges }

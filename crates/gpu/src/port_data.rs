@@ -102,6 +102,13 @@ impl PortData {
         decode(self.scalar, &self.bytes[index * size..(index + 1) * size])
     }
 
+    /// The numbers of a texel (x, y, layer), exactly; channels that are not there are 0.
+    pub fn texel(&self, [x, y, layer]: [u32; 3]) -> [f64; 4] {
+        let channels = self.channels() as usize;
+        let first = ((layer * self.height() + y) * self.width() + x) as usize * channels;
+        std::array::from_fn(|channel| if channel < channels { self.number(first + channel) } else { 0.0 })
+    }
+
     /// All numbers, exactly: `width * height * layers * channels`.
     pub fn numbers(&self) -> Numbers {
         let words = || self.bytes.as_chunks().0.iter().copied();

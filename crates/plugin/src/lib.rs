@@ -18,6 +18,7 @@ mod manifest;
 mod pass;
 mod ports;
 mod presets;
+mod reference;
 mod registry;
 mod search;
 
@@ -25,8 +26,9 @@ pub use codes::CODES;
 pub use folder::{Folder, Origin};
 pub use limits::{Limit, SceneFeature};
 pub use manifest::Version;
-pub use pass::{Outputs, Plugin, Reference, ReferenceInput, RustPass, Shaders};
+pub use pass::{Plugin, RustPass, Shaders};
 pub use ports::Need;
+pub use reference::{Outputs, Pixel, Reference, ReferenceInput, each_texel, rgb, rgba};
 pub use registry::{Registry, RegistryPass};
 pub use search::{SearchPath, find_folders, shader_modules};
 

@@ -13,8 +13,9 @@ use crate::dispatch::{self, Over};
 use crate::folder::Folder;
 use crate::limits::Limit;
 use crate::manifest::{Manifest, ManifestPass};
-use crate::pass::{MakeProgram, Reference, RustPass, Shaders};
+use crate::pass::{MakeProgram, RustPass, Shaders};
 use crate::ports::{self, Need};
+use crate::reference::Reference;
 use crate::registry::RegistryPass;
 
 /// How a pass is made ready for a plan.

@@ -15,8 +15,9 @@ use crate::found::{self, Found};
 use crate::limits::Limit;
 use crate::linker::{Linker, Make, fingerprint};
 use crate::manifest::Version;
-use crate::pass::{Plugin, Reference, RustPass, Shaders};
+use crate::pass::{Plugin, RustPass, Shaders};
 use crate::ports::Need;
+use crate::reference::Reference;
 
 /// Every pass of every plugin. The names of all passes are known from the manifests; a pass is linked and checked when a
 /// graph first uses it, once for all clones of the registry. So a mistake in a plugin is told where its passes are used,

@@ -4,9 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use tyndall_plugin::descriptor::ParamValue;
-use tyndall_plugin::{Outputs, PortData, ReferenceInput};
-use tyndall_shaders::ray::ray_of_pixel;
+use tyndall_plugin::{Outputs, Pixel, PortData, ReferenceInput, rgb};
 use tyndall_shaders::scene::{Light, Scene};
 
 use crate::air::Air;
@@ -14,16 +12,15 @@ use crate::atmosphere::Atmosphere;
 
 /// The words of `Air` of `air.wgsl`, in order; whole numbers as their bits.
 pub(crate) fn atmosphere(input: &ReferenceInput<'_>) -> Outputs {
-    let is = |name: &str, word: &str| input.params.get(name) == Some(&ParamValue::Choice(word.to_owned()));
     let atmosphere = Atmosphere {
-        rayleigh: vector(input, "rayleigh")?,
-        mie: vector(input, "mie")?,
-        absorption: vector(input, "absorption")?,
-        g: vector(input, "g")?,
+        rayleigh: input.color("rayleigh")?,
+        mie: input.color("mie")?,
+        absorption: input.color("absorption")?,
+        g: input.color("g")?,
         rayleigh_height: input.number("rayleigh_height")?,
         mie_height: input.number("mie_height")?,
-        dome: is("sky", "dome"),
-        from_space: is("sunlight", "space"),
+        dome: input.choice("sky")? == "dome",
+        from_space: input.choice("sunlight")? == "space",
     };
     let air = atmosphere.air();
     let from_space = f64::from(f32::from_bits(u32::from(air.above.is_some())));
@@ -46,52 +43,37 @@ pub(crate) fn atmosphere(input: &ReferenceInput<'_>) -> Outputs {
 
 /// L_in of every directional light.
 pub(crate) fn sun(input: &ReferenceInput<'_>) -> Outputs {
-    picture(input, "inscattering", |air, scene, _, ray, way| {
-        let s = air.way(ray, way);
-        suns(scene).map(|(sun, irradiance)| air.in_scattering(sun, irradiance, ray, s)).sum()
+    let (scene, air) = (input.scene()?, air(input.input("air")?)?);
+    input.view("inscattering", |Pixel { ray, distance, .. }| {
+        let s = air.way(ray.direction, *distance);
+        suns(scene).map(|(sun, irradiance)| air.in_scattering(sun, irradiance, ray.direction, s)).sum()
     })
 }
 
 /// F_ex L_0, less what the air takes of sunlight on its way to the surface: of several suns the mean by their irradiance.
 pub(crate) fn extinction(input: &ReferenceInput<'_>) -> Outputs {
-    let surface = input.inputs.get("surface").copied();
-    picture(input, "attenuated", |air, scene, texel, ray, way| {
-        let above: DVec3 = suns(scene).map(|(_, irradiance)| irradiance).sum();
-        let below: DVec3 = suns(scene).map(|(sun, irradiance)| irradiance * air.sunlight(sun)).sum();
-        let left = DVec3::from_array(std::array::from_fn(|i| if above[i] > 0.0 { below[i] / above[i] } else { 1.0 }));
-        color(surface, texel, 1.0) * left * air.extinction_factor(air.way(ray, way))
+    let (scene, air) = (input.scene()?, air(input.input("air")?)?);
+    let above: DVec3 = suns(scene).map(|(_, irradiance)| irradiance).sum();
+    let below: DVec3 = suns(scene).map(|(sun, irradiance)| irradiance * air.sunlight(sun)).sum();
+    let left = DVec3::from_array(std::array::from_fn(|i| if above[i] > 0.0 { below[i] / above[i] } else { 1.0 }));
+    let surface = input.inputs.get("surface");
+    input.view("attenuated", |Pixel { at, ray, distance }| {
+        let surface = surface.map_or(DVec3::ONE, |surface| rgb(surface, *at));
+        surface * left * air.extinction_factor(air.way(ray.direction, *distance))
     })
 }
 
 /// What the air sends, what surfaces send, and where a ray meets nothing what comes through of the background.
 pub(crate) fn compose(input: &ReferenceInput<'_>) -> Outputs {
-    let inscattering = input.inputs.get("inscattering").copied();
-    let surface = input.inputs.get("surface").copied();
-    picture(input, "radiance", |air, scene, texel, ray, way| {
-        let sum = color(inscattering, texel, 0.0) + color(surface, texel, 0.0);
-        if way.is_finite() { sum } else { sum + scene.background * air.extinction_factor(air.way(ray, way)) }
-    })
-}
-
-/// One colour port, alpha 1. Its texels from the air, the scene, the texel's number, the ray's direction, and the way to
-/// the nearest surface.
-fn picture(
-    input: &ReferenceInput<'_>,
-    port: &'static str,
-    texel: impl Fn(&Air, &Scene, usize, DVec3, f64) -> DVec3,
-) -> Outputs {
-    let (scene, air, size) = (input.scene()?, air(input.input("air")?)?, input.size(port)?);
-    let depth = input.inputs.get("depth");
-    let mut data = Vec::with_capacity((4 * size[0] * size[1]) as usize);
-    for y in 0..size[1] {
-        for x in 0..size[0] {
-            let index = (y * size[0] + x) as usize;
-            let way = depth.map_or(f64::INFINITY, |depth| depth.number(index * depth.channels() as usize));
-            let ray = ray_of_pixel(&scene.camera, [x, y], size).direction;
-            data.extend(texel(&air, scene, index, ray, way).extend(1.0).as_vec4().to_array());
+    let (scene, air) = (input.scene()?, air(input.input("air")?)?);
+    let fed = ["inscattering", "surface"].map(|port| input.inputs.get(port));
+    input.view("radiance", |Pixel { at, ray, distance }| {
+        let sum = fed.iter().flatten().map(|data| rgb(data, *at)).sum();
+        if distance.is_finite() {
+            return sum;
         }
-    }
-    Ok(BTreeMap::from([(port, data.into())]))
+        sum + scene.background * air.extinction_factor(air.way(ray.direction, *distance))
+    })
 }
 
 /// The air as a pass was given it: see `Air` of `air.wgsl`.
@@ -117,18 +99,4 @@ fn suns(scene: &Scene) -> impl Iterator<Item = (DVec3, DVec3)> + '_ {
         Light::Directional { direction, irradiance } => Some((*direction, *irradiance)),
         _ => None,
     })
-}
-
-/// A texel of an input, or what stands for one that is not fed.
-fn color(data: Option<&PortData>, texel: usize, without: f64) -> DVec3 {
-    let Some(data) = data else { return DVec3::splat(without) };
-    let at = texel * data.channels() as usize;
-    DVec3::from_array(std::array::from_fn(|channel| data.number(at + channel)))
-}
-
-fn vector(input: &ReferenceInput<'_>, param: &str) -> Result<DVec3, String> {
-    match input.params.get(param) {
-        Some(ParamValue::Vector(values)) if values.len() == 3 => Ok(DVec3::from_slice(values)),
-        _ => Err(format!("`{param}` is no colour")),
-    }
 }

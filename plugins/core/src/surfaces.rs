@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use glam::{DVec2, DVec3};
-use tyndall_plugin::{Outputs, ReferenceInput};
+use tyndall_plugin::{Outputs, Pixel, ReferenceInput, rgba};
 use tyndall_shaders::colour::linear_from_srgb;
-use tyndall_shaders::ray::{Ray, ray_of_pixel};
+use tyndall_shaders::ray::Ray;
 use tyndall_shaders::scene::{Camera, Surfaces, Texture, Triangle, Wrap};
 
 /// Depth buffer times distance along the view axis, m.
@@ -19,20 +19,22 @@ const RASTER_DEPTH: f64 = 1e-6;
 /// Every port of `core.gbuffer`.
 pub(crate) fn gbuffer(input: &ReferenceInput<'_>) -> Outputs {
     let (camera, surfaces, size) = (&input.scene()?.camera, input.surfaces()?, input.size("depth")?);
-    let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
-    let rays: Vec<Ray> = pixels.map(|pixel| ray_of_pixel(camera, pixel, size)).collect();
-    let hits = nearest(&surfaces.triangles, camera, size, &rays);
-    let seen: Vec<Seen> = rays.iter().zip(&hits).map(|(ray, hit)| seen(surfaces, ray, hit.as_ref())).collect();
-    let raster_depth = |(ray, hit): (&Ray, &Option<Hit>)| {
-        hit.as_ref().map_or(0.0, |hit| RASTER_DEPTH / (hit.way * ray.direction.dot(camera.forward)))
-    };
-    let layers = seen.iter().map(|seen| seen.reflected).chain(seen.iter().map(|seen| seen.shiny));
+    let places: Vec<_> = surfaces.triangles.iter().map(|triangle| pixels_around(triangle, camera, size)).collect();
+    let pixels = input.pixels("depth", |Pixel { at, ray, .. }| {
+        let hit = nearest(&surfaces.triangles, &places, *at, ray);
+        let along_axis = |hit: &Hit| hit.way * ray.direction.dot(camera.forward);
+        let raster_depth = hit.as_ref().map_or(0.0, |hit| RASTER_DEPTH / along_axis(hit));
+        (seen(surfaces, ray, hit.as_ref()), raster_depth, hit)
+    })?;
+    let hits = || pixels.iter().map(|(.., hit)| hit.as_ref());
+    let seen = || pixels.iter().map(|(seen, ..)| seen);
+    let layers = seen().map(|seen| seen.reflected).chain(seen().map(|seen| seen.shiny));
     Ok(BTreeMap::from([
-        ("depth", hits.iter().map(|hit| hit.as_ref().map_or(f32::INFINITY, |hit| hit.way as f32)).collect()),
-        ("normal", seen.iter().flat_map(|seen| seen.normal.extend(1.0).as_vec4().to_array()).collect()),
+        ("depth", hits().map(|hit| hit.map_or(f32::INFINITY, |hit| hit.way as f32)).collect()),
+        ("normal", rgba(seen().map(|seen| seen.normal))),
         ("material", layers.flat_map(|layer| layer.map(|number| number as f32)).collect()),
-        ("triangle", hits.iter().map(|hit| hit.as_ref().map_or(0, |hit| hit.triangle as u32 + 1)).collect()),
-        ("raster_depth", rays.iter().zip(&hits).map(|both| raster_depth(both) as f32).collect()),
+        ("triangle", hits().map(|hit| hit.map_or(0, |hit| hit.triangle as u32 + 1)).collect()),
+        ("raster_depth", pixels.iter().map(|(_, raster_depth, _)| *raster_depth as f32).collect()),
     ]))
 }
 
@@ -55,20 +57,11 @@ struct Seen {
     shiny: [f64; 4],
 }
 
-/// The nearest triangle on each ray.
-fn nearest(triangles: &[Triangle], camera: &Camera, size: [u32; 2], rays: &[Ray]) -> Vec<Option<Hit>> {
-    let mut hits: Vec<Option<Hit>> = rays.iter().map(|_| None).collect();
-    for (index, triangle) in triangles.iter().enumerate() {
-        let [across, down] = pixels_around(triangle, camera, size);
-        for pixel in down.flat_map(|y| across.clone().map(move |x| (y * size[0] + x) as usize)) {
-            let hit = meet(index, triangle, &rays[pixel]);
-            let is_nearer = |hit: &Hit| hits[pixel].as_ref().is_none_or(|before| hit.way < before.way);
-            if let Some(hit) = hit.filter(is_nearer) {
-                hits[pixel] = Some(hit);
-            }
-        }
-    }
-    hits
+/// The nearest triangle on the ray of a pixel. `places` are the columns and rows where each can be seen.
+fn nearest(triangles: &[Triangle], places: &[[Range<u32>; 2]], [x, y]: [u32; 2], ray: &Ray) -> Option<Hit> {
+    let near = places.iter().enumerate().filter(|(_, [across, down])| across.contains(&x) && down.contains(&y));
+    let hits = near.filter_map(|(index, _)| meet(index, &triangles[index], ray));
+    hits.min_by(|a, b| a.way.total_cmp(&b.way))
 }
 
 /// Columns and rows in which a triangle can be seen, and one more on each side; all where it reaches behind the eye.

@@ -1,7 +1,5 @@
 //! The airlight of each pixel, looked up in the grid, in double precision: twin of `airlight.wgsl`.
 
-use std::collections::BTreeMap;
-
 use glam::DVec3;
 use tyndall_plugin::{Outputs, PortData, ReferenceInput};
 use tyndall_shaders::medium::opacity;
@@ -12,18 +10,8 @@ use crate::grid::{Grid, froxel};
 /// The port of `froxel.airlight`.
 pub(crate) fn reference(input: &ReferenceInput<'_>) -> Outputs {
     let (accumulated, medium) = (input.input("accumulated")?, &input.scene()?.medium);
-    let grid = Grid::read(input.input("grid")?, accumulated)?;
-    let (depth, size) = (input.inputs.get("depth"), input.size("radiance")?);
-    let mut radiance = Vec::with_capacity((4 * size[0] * size[1]) as usize);
-    for y in 0..size[1] {
-        for x in 0..size[0] {
-            let at = (y * size[0] + x) as usize;
-            let way = depth.map_or(f64::INFINITY, |depth| depth.number(at * depth.channels() as usize));
-            let pixel = pixel(accumulated, medium, &grid, ([x, y], size), way.min(grid.far));
-            radiance.extend(pixel.extend(1.0).as_vec4().to_array());
-        }
-    }
-    Ok(BTreeMap::from([("radiance", radiance.into())]))
+    let (grid, size) = (Grid::read(input.input("grid")?, accumulated)?, input.size("radiance")?);
+    input.view("radiance", |at| pixel(accumulated, medium, &grid, (at.at, size), at.distance.min(grid.far)))
 }
 
 /// Linear between the centres of the four nearest columns.

@@ -49,11 +49,10 @@ pub fn ray_of_point(camera: &Camera, at: DVec2) -> Ray {
 
 /// A froxel of a texture; columns beyond the edge are those at the edge.
 pub(crate) fn froxel(data: &PortData, column: [i64; 2], slice: u32) -> DVec3 {
-    let [x, y] = [(column[0], data.width()), (column[1], data.height())]
-        .map(|(at, size)| at.clamp(0, i64::from(size) - 1) as usize);
-    let texel = (slice as usize * data.height() as usize + y) * data.width() as usize + x;
-    let first = texel * data.channels() as usize;
-    DVec3::from_array(std::array::from_fn(|channel| data.number(first + channel)))
+    let [x, y] = [(column[0], data.width()), (column[1], data.height())];
+    let [x, y] = [x, y].map(|(at, size)| at.clamp(0, i64::from(size) - 1) as u32);
+    let [r, g, b, _] = data.texel([x, y, slice]);
+    DVec3::new(r, g, b)
 }
 
 #[cfg(test)]

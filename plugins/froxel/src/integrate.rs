@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use tyndall_plugin::{Outputs, ReferenceInput};
+use tyndall_plugin::{Outputs, ReferenceInput, rgba};
 use tyndall_shaders::scene::Medium;
 
 use crate::grid::{Grid, froxel};
@@ -14,16 +14,15 @@ pub(crate) fn reference(input: &ReferenceInput<'_>) -> Outputs {
     let grid = Grid::read(input.input("grid")?, scattered)?;
     let columns = || (0..scattered.height()).flat_map(|y| (0..scattered.width()).map(move |x| [x, y].map(i64::from)));
     let mut sums = vec![DVec3::ZERO; columns().count()];
-    let mut accumulated = Vec::with_capacity(scattered.len());
+    let mut accumulated = Vec::new();
     for slice in 0..grid.slices {
         let seen = seen(medium, grid.border(slice), grid.border(slice + 1));
         for (sum, column) in sums.iter_mut().zip(columns()) {
             *sum += froxel(scattered, column, slice) * seen;
-            accumulated.extend(rgba(*sum));
+            accumulated.push(*sum);
         }
     }
-    let whole = sums.into_iter().flat_map(rgba);
-    Ok(BTreeMap::from([("accumulated", accumulated.into()), ("whole", whole.collect())]))
+    Ok(BTreeMap::from([("accumulated", rgba(accumulated)), ("whole", rgba(sums))]))
 }
 
 /// Of light that is scattered evenly between two distances, how many metres of it reach the eye: the integral of
@@ -34,8 +33,4 @@ fn seen(medium: &Medium, near: f64, far: f64) -> DVec3 {
         _ => (-extinction * near).exp() * -(-extinction * (far - near)).exp_m1() / extinction,
     };
     DVec3::from_array(medium.extinction.to_array().map(channel))
-}
-
-fn rgba(color: DVec3) -> [f32; 4] {
-    color.extend(1.0).as_vec4().to_array()
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
-use tyndall_plugin::{Outputs, ReferenceInput, descriptor::ParamValue};
+use tyndall_plugin::{Outputs, ReferenceInput, each_texel, rgba};
 use tyndall_shaders::lights::incident;
 use tyndall_shaders::medium::transmittance;
 use tyndall_shaders::phase::phase;
@@ -16,29 +16,18 @@ use crate::grid::{Grid, ray_of_point};
 
 /// Both ports of `froxel.scatter`.
 pub(crate) fn reference(input: &ReferenceInput<'_>) -> Outputs {
-    let whole = |name: &str| match input.params.get(name) {
-        Some(ParamValue::Integer(value)) => u32::try_from(*value).map_err(|_| format!("`{name}` is {value}")),
-        _ => Err(format!("`{name}` is no whole number")),
-    };
+    let whole = |param: &str| input.number(param).map(|number| number as u32);
     let (columns, slices, points) = ([whole("width")?, whole("height")?], whole("slices")?, whole("points")?);
     let (near, far) = (input.number("near")?, input.number("far")?);
     // What ends before it begins is as good as empty.
     let grid = Grid { near, far: far.max(1.001 * near), slices };
     let scene = input.scene()?;
-    let shadows = input.params.get("shadows") == Some(&ParamValue::Bool(true));
-    let map = input.inputs.get("shadow_map").filter(|_| shadows).map(|map| (map.floats(), map.width()));
+    let map = input.inputs.get("shadow_map").filter(|_| input.is_on("shadows"));
+    let map = map.map(|map| (map.floats(), map.width()));
     let map = map.as_ref().map(|(distances, width)| Map { distances, width: *width });
-    let mut scattered = Vec::new();
-    for slice in 0..slices {
-        for y in 0..columns[1] {
-            for x in 0..columns[0] {
-                let light = froxel((scene, map), &grid, columns, [x, y, slice], points);
-                scattered.extend(light.extend(1.0).as_vec4().to_array());
-            }
-        }
-    }
+    let scattered = each_texel([columns[0], columns[1], slices], |at| froxel((scene, map), &grid, columns, at, points));
     let numbers = vec![grid.near as f32, grid.far as f32, 0.0, 0.0];
-    Ok(BTreeMap::from([("scattered", scattered.into()), ("grid", numbers.into())]))
+    Ok(BTreeMap::from([("scattered", rgba(scattered)), ("grid", numbers.into())]))
 }
 
 /// A shadow map: distances, and the width of a layer.

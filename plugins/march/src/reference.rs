@@ -1,13 +1,12 @@
 //! What the passes of this plugin compute, in double precision: what image tests hold them against.
 
+use glam::DVec3;
 use std::collections::BTreeMap;
-
-use tyndall_plugin::descriptor::ParamValue;
-use tyndall_plugin::{Outputs, ReferenceInput};
+use tyndall_plugin::{Outputs, Pixel, ReferenceInput};
 use tyndall_shaders::lights::incident;
 use tyndall_shaders::medium::transmittance;
 use tyndall_shaders::phase::phase;
-use tyndall_shaders::ray::{Ray, ray_of_pixel};
+use tyndall_shaders::ray::Ray;
 use tyndall_shaders::scene::{Light, Scene};
 use tyndall_shaders::shadow_map::{Tiles, is_hidden, nearest, place};
 use tyndall_shaders::shadows::lit_intervals;
@@ -27,34 +26,23 @@ enum Shadows<'a> {
 /// The same march with the same steps, from the definition of single scattering: what a light sends to the middle of
 /// each step, through the medium to there and from there. No distance is floored, so lights keep off the rays.
 pub(crate) fn airlight(input: &ReferenceInput<'_>) -> Outputs {
-    let scene = input.scene()?;
-    let (size, steps) = (input.size("radiance")?, input.number("steps")?);
-    let is_on = |name: &str| input.params.get(name) == Some(&ParamValue::Bool(true));
+    let (scene, steps) = (input.scene()?, input.number("steps")?);
     let map = input.inputs.get("shadow_map").map(|map| (map.floats(), map.width()));
     let shadows = match &map {
-        Some((distances, width)) if is_on("shadows") && is_on("maps") => Shadows::Map(distances, *width),
-        _ if is_on("shadows") => Shadows::Rays,
+        Some((distances, width)) if input.is_on("shadows") && input.is_on("maps") => Shadows::Map(distances, *width),
+        _ if input.is_on("shadows") => Shadows::Rays,
         _ => Shadows::None,
     };
-    let depth = input.inputs.get("depth");
     let (extinction, scattering) = (scene.medium.extinction.to_array(), scene.medium.scattering().to_array());
     let scatters = extinction.into_iter().zip(scattering).filter(|(_, scattering)| *scattering > 0.0);
     let least = scatters.map(|(extinction, _)| extinction).fold(f64::INFINITY, f64::min);
     let least = if least.is_finite() { least } else { 1e-30 };
-    let mut radiance = Vec::with_capacity((4 * size[0] * size[1]) as usize);
-    for y in 0..size[1] {
-        for x in 0..size[0] {
-            let ray = ray_of_pixel(&scene.camera, [x, y], size);
-            let far = depth.map_or(f64::INFINITY, |depth| depth.number((y * depth.width() + x) as usize));
-            let sum = march(scene, &ray, far.min(MARCH_DEPTH / least), steps, shadows);
-            radiance.extend(sum.map(|channel| channel as f32));
-            radiance.push(1.0);
-        }
-    }
-    Ok(BTreeMap::from([("radiance", radiance.into())]))
+    input.view("radiance", |Pixel { ray, distance, .. }| {
+        march(scene, ray, distance.min(MARCH_DEPTH / least), steps, shadows)
+    })
 }
 
-fn march(scene: &Scene, ray: &Ray, way: f64, steps: f64, shadows: Shadows<'_>) -> [f64; 3] {
+fn march(scene: &Scene, ray: &Ray, way: f64, steps: f64, shadows: Shadows<'_>) -> DVec3 {
     let dx = way / steps;
     let casters = if matches!(shadows, Shadows::Rays) { scene.casters.as_slice() } else { &[] };
     let lit: Vec<Vec<[f64; 2]>> =
@@ -63,12 +51,11 @@ fn march(scene: &Scene, ray: &Ray, way: f64, steps: f64, shadows: Shadows<'_>) -
         Shadows::Map(distances, width) => !is_hidden(distances, width, &scene.lights, light, ray.at(x)),
         Shadows::None | Shadows::Rays => lit[light].iter().any(|[from, to]| (*from..*to).contains(&x)),
     };
-    let mut sum = [0.0; 3];
+    let mut sum = DVec3::ZERO;
     for step in 0..steps as u32 {
         let x = (f64::from(step) + 0.5) * dx;
         for (_, light) in scene.lights.iter().enumerate().filter(|(index, _)| reaches(*index, x)) {
-            let scattered = scatter(scene, light, ray, x);
-            (0..3).for_each(|channel| sum[channel] += scattered[channel] * dx);
+            sum += scatter(scene, light, ray, x) * dx;
         }
     }
     sum
@@ -79,24 +66,21 @@ const NOTHING: f32 = 3e38;
 
 /// The distance of the nearest of all casters, for each texel.
 pub(crate) fn shadow_map(input: &ReferenceInput<'_>) -> Outputs {
-    let scene = input.scene()?;
-    let [width, height] = input.size("distances")?;
+    let (scene, [width, ..]) = (input.scene()?, input.size("distances")?);
     let tiles = Tiles::new(scene.lights.len(), width);
-    let texel = |x: u32, y: u32, layer: u32| {
+    let distances = input.texels("distances", |[x, y, layer]| {
         let place = tiles.light([x, y]).and_then(|light| place(scene.lights.get(light)?));
         let found = place.map(|place| nearest(&scene.casters, place, tiles.direction([x, y], layer)));
         found.filter(|found| found.is_finite()).map_or(NOTHING, |found| found as f32)
-    };
-    let rows = (0..6).flat_map(|layer| (0..height).map(move |y| (layer, y)));
-    let distances = rows.flat_map(|(layer, y)| (0..width).map(move |x| texel(x, y, layer))).collect();
-    Ok(BTreeMap::from([("distances", distances)]))
+    })?;
+    Ok(BTreeMap::from([("distances", distances.into())]))
 }
 
 /// Light that is scattered toward the eye at a point of the ray, and reaches it, W/(sr m³).
-fn scatter(scene: &Scene, light: &Light, ray: &Ray, x: f64) -> [f64; 3] {
+fn scatter(scene: &Scene, light: &Light, ray: &Ray, x: f64) -> DVec3 {
     let arriving = incident(light, ray.at(x));
     // sin² of half the angle between the way of the light and the way to the eye.
     let w = (ray.direction - arriving.to_light).length_squared() / 4.0;
     let reaches = transmittance(&scene.medium, arriving.way) * transmittance(&scene.medium, x);
-    (scene.medium.scattering() * arriving.irradiance * phase(&scene.medium.phase, w) * reaches).to_array()
+    scene.medium.scattering() * arriving.irradiance * phase(&scene.medium.phase, w) * reaches
 }

@@ -3,11 +3,10 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use tyndall_plugin::descriptor::ParamValue;
-use tyndall_plugin::{Outputs, ReferenceInput};
+use tyndall_plugin::{Outputs, Pixel, ReferenceInput, rgba};
 use tyndall_shaders::airlight::airlight;
 use tyndall_shaders::lights::lit_bit;
-use tyndall_shaders::ray::{Ray, ray_of_pixel};
+use tyndall_shaders::ray::Ray;
 use tyndall_shaders::scene::{Caster, Light};
 use tyndall_shaders::shadows::{Source, edge_touches, facing};
 
@@ -34,36 +33,26 @@ struct Crossed {
 
 /// Airlight by the planes, drawn in their order with a stencil or without.
 pub(crate) fn biri(input: &ReferenceInput<'_>) -> Outputs {
-    let scene = input.scene()?;
-    let size = input.size("radiance")?;
-    let depth = input.input("depth")?;
-    let stencil = input.params.get("stencil") == Some(&ParamValue::Bool(true));
+    let (scene, stencil) = (input.scene()?, input.is_on("stencil"));
     let eye = scene.camera.position;
     let planes: Vec<Vec<Plane>> = scene.lights.iter().map(|light| silhouette(light, &scene.casters, eye)).collect();
-    let (mut radiance, mut lit) = (Vec::new(), Vec::new());
-    for y in 0..size[1] {
-        for x in 0..size[0] {
-            let ray = ray_of_pixel(&scene.camera, [x, y], size);
-            let way = depth.number((y * depth.width() + x) as usize);
-            let mut sum = DVec3::ZERO;
-            let mut bits = [0.0_f32; 4];
-            for (index, (light, planes)) in scene.lights.iter().zip(&planes).enumerate() {
-                let crossed = crossed(light, planes, &ray, way);
-                let volumes = volumes_of_surface(&crossed);
-                if volumes == 0
-                    && let Some((channel, bit)) = lit_bit(index)
-                {
-                    bits[channel] += bit as f32;
-                }
-                let before = |x: f64| airlight(light, &scene.medium, &ray, 0.0, x);
-                sum += drawn(&crossed, volumes, stencil, way, before);
+    let pixels = input.pixels("radiance", |Pixel { ray, distance, .. }| {
+        let (mut sum, mut bits) = (DVec3::ZERO, [0.0_f32; 4]);
+        for (index, (light, planes)) in scene.lights.iter().zip(&planes).enumerate() {
+            let crossed = crossed(light, planes, ray, *distance);
+            let volumes = volumes_of_surface(&crossed);
+            if volumes == 0
+                && let Some((channel, bit)) = lit_bit(index)
+            {
+                bits[channel] += bit as f32;
             }
-            radiance.extend(sum.as_vec3().to_array());
-            radiance.push(1.0);
-            lit.extend(bits);
+            let before = |x: f64| airlight(light, &scene.medium, ray, 0.0, x);
+            sum += drawn(&crossed, volumes, stencil, *distance, before);
         }
-    }
-    Ok(BTreeMap::from([("radiance", radiance.into()), ("lit", lit.into())]))
+        (sum, bits)
+    })?;
+    let (radiance, lit): (Vec<_>, Vec<_>) = pixels.into_iter().unzip();
+    Ok(BTreeMap::from([("radiance", rgba(radiance)), ("lit", lit.concat().into())]))
 }
 
 /// The planes before the surface that face the eye, less those that do not.

@@ -9,14 +9,13 @@ pub(crate) mod lookup;
 pub(crate) mod phong;
 pub(crate) mod tables;
 
-use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use tyndall_plugin::{Outputs, PortData, ReferenceInput};
+use tyndall_plugin::{Outputs, Pixel, ReferenceInput};
 use tyndall_shaders::lights::{incident, lit_bit};
 use tyndall_shaders::medium::{effective_way, transmittance};
-use tyndall_shaders::ray::{Ray, ray_of_pixel};
+use tyndall_shaders::ray::Ray;
 use tyndall_shaders::scene::{HeightFog, Light, Scene};
 
 /// Direct light of every light, in height fog too: the formula of the contract, from the surface that was fed.
@@ -44,31 +43,23 @@ pub(crate) struct Surface {
 pub(crate) fn of_surfaces(
     input: &ReferenceInput<'_>,
     fog: &HeightFog,
-    light: impl Fn(&Scene, &Light, &Surface) -> DVec3,
+    light: impl Fn(&Scene, &Light, &Surface) -> DVec3 + Sync,
 ) -> Outputs {
-    let scene = input.scene()?;
-    let (depth, normal, material) = (input.input("depth")?, input.input("normal")?, input.input("material")?);
-    let size = input.size("radiance")?;
-    let mut radiance = Vec::with_capacity((4 * size[0] * size[1]) as usize);
-    for y in 0..size[1] {
-        for x in 0..size[0] {
-            let (ray, way) = (ray_of_pixel(&scene.camera, [x, y], size), texel(depth, 0, x, y)[0]);
-            let mut sum = DVec3::ZERO;
-            if way.is_finite() {
-                let [diffuse, phong] = [0, 1].map(|layer| texel(material, layer, x, y));
-                let surface = surface(&ray, way, texel(normal, 0, x, y), diffuse, phong);
-                let to_eye = transmittance(&scene.medium, effective_way(fog, ray.origin.y, ray.direction.y, way));
-                let lit = input.inputs.get("lit").map(|lit| texel(lit, 0, x, y));
-                let lights = scene.lights.iter().enumerate().map(|(index, each)| {
-                    light(scene, each, &Surface { is_lit: lit.is_none_or(|bits| has_light(bits, index)), ..surface })
-                });
-                sum = lights.sum::<DVec3>() * to_eye;
-            }
-            radiance.extend(sum.to_array().map(|channel| channel as f32));
-            radiance.push(1.0);
+    let (scene, normal, material) = (input.scene()?, input.input("normal")?, input.input("material")?);
+    let lit = input.inputs.get("lit");
+    input.view("radiance", |Pixel { at: [x, y], ray, distance }| {
+        if distance.is_infinite() {
+            return DVec3::ZERO;
         }
-    }
-    Ok(BTreeMap::from([("radiance", radiance.into())]))
+        let [diffuse, phong] = [0, 1].map(|layer| material.texel([*x, *y, layer]));
+        let surface = surface(ray, *distance, rgb(&normal.texel([*x, *y, 0])), diffuse, phong);
+        let to_eye = transmittance(&scene.medium, effective_way(fog, ray.origin.y, ray.direction.y, *distance));
+        let lit = lit.map(|lit| lit.texel([*x, *y, 0]));
+        let lights = scene.lights.iter().enumerate().map(|(index, each)| {
+            light(scene, each, &Surface { is_lit: lit.is_none_or(|bits| has_light(bits, index)), ..surface })
+        });
+        lights.sum::<DVec3>() * to_eye
+    })
 }
 
 /// Whether a light is among those of a texel; beyond those that there is room for all are.
@@ -76,17 +67,10 @@ fn has_light(bits: [f64; 4], light: usize) -> bool {
     lit_bit(light).is_none_or(|(channel, bit)| bits[channel] as u32 & bit != 0)
 }
 
-fn surface(ray: &Ray, way: f64, normal: [f64; 4], diffuse: [f64; 4], phong: [f64; 4]) -> Surface {
-    let outward = DVec3::new(normal[0], normal[1], normal[2]);
+fn surface(ray: &Ray, way: f64, outward: DVec3, diffuse: [f64; 4], phong: [f64; 4]) -> Surface {
     let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
     let mirrored = ray.direction - 2.0 * ray.direction.dot(normal) * normal;
     Surface { is_lit: true, position: ray.at(way), normal, mirrored, diffuse, phong }
-}
-
-/// A texel of a layer; channels that are not there are 0.
-pub(crate) fn texel(data: &PortData, layer: u32, x: u32, y: u32) -> [f64; 4] {
-    let at = (((layer * data.height() + y) * data.width() + x) * data.channels()) as usize;
-    std::array::from_fn(|channel| if channel < data.channels() as usize { data.number(at + channel) } else { 0.0 })
 }
 
 /// The first three channels.

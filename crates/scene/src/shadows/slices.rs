@@ -10,7 +10,6 @@
 //! direction (x, y, n) with n = 1 + κz. Within a half-plane, with the distance r from the axis, `n/r` falls along every
 //! ray, whatever its direction: it says what is crossed first.
 
-use std::num::NonZero;
 use std::ops::Range;
 
 use glam::{DMat3, DVec3};
@@ -181,8 +180,8 @@ pub(crate) fn sort(borders: &Borders, spans: &[Span], starts: &mut Vec<u32>, cro
     starts.extend(borders.bins.windows(2).map(|slices| slices[0] << 16 | (slices[1] - slices[0])));
     starts.extend([0].iter().chain(&ends).map(|end| (first + end) as u32));
     crossings.resize(first + end, ShadowCrossing::default());
-    let threads = std::thread::available_parallelism().map_or(1, NonZero::get).min(1 + end / CROSSINGS_OF_THREAD);
-    std::thread::scope(|scope| {
+    let threads = rayon::current_num_threads().min(1 + end / CROSSINGS_OF_THREAD);
+    rayon::scope(|scope| {
         let mut rest = &mut crossings[first..];
         let mut done = 0;
         for thread in 1..=threads {
@@ -198,7 +197,7 @@ pub(crate) fn sort(borders: &Borders, spans: &[Span], starts: &mut Vec<u32>, cro
             if thread == threads {
                 fill();
             } else {
-                scope.spawn(fill);
+                scope.spawn(|_| fill());
             }
         }
     });

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
+use glam::DVec3;
 use tyndall_plugin::{Outputs, ReferenceInput};
 use tyndall_shaders::airlight_table::{Table, legendre_polynomials};
 use tyndall_shaders::cone::ray_in_cone;
@@ -37,7 +38,7 @@ pub(crate) fn legendre(input: &ReferenceInput<'_>) -> Outputs {
     of_table(input, weights, series)
 }
 
-fn of_table(input: &ReferenceInput<'_>, weights: [f64; 4], phase: impl Fn(&Phase, f64) -> f64) -> Outputs {
+fn of_table(input: &ReferenceInput<'_>, weights: [f64; 4], phase: impl Fn(&Phase, f64) -> f64 + Sync) -> Outputs {
     let data = input.input("table")?;
     let numbers = data.floats();
     let table = Table { size: [data.width(), data.height()], channels: data.channels(), data: &numbers };
@@ -45,19 +46,19 @@ fn of_table(input: &ReferenceInput<'_>, weights: [f64; 4], phase: impl Fn(&Phase
         let medium = &scene.medium;
         if let Light::Directional { direction, irradiance } = *light {
             let w = (direction + ray.direction).length_squared() / 4.0;
-            return (medium.albedo * irradiance * phase(&medium.phase, w) * opacity(medium, far)).to_array();
+            return medium.albedo * irradiance * phase(&medium.phase, w) * opacity(medium, far);
         }
         lamp(light, medium, ray, far, &|u, theta| table.at(weights, [u / TABLE_DEPTH, theta / PI + 0.5]))
     })
 }
 
 /// sigma_s I e^(-sigma_t t)/h (H(u, theta_d) - H(u, theta_0)), for a spot in parts.
-fn lamp(light: &Light, medium: &Medium, ray: &Ray, far: f64, h_of: &dyn Fn(f64, f64) -> f64) -> [f64; 3] {
+fn lamp(light: &Light, medium: &Medium, ray: &Ray, far: f64, h_of: &dyn Fn(f64, f64) -> f64) -> DVec3 {
     let (position, intensity, radius) = match *light {
         Light::Point { position, intensity, radius } | Light::Spot { position, intensity, radius, .. } => {
             (position, intensity, radius)
         }
-        Light::Directional { .. } => return [0.0; 3],
+        Light::Directional { .. } => return DVec3::ZERO,
     };
     let to_light = position - ray.origin;
     let (t, away) = (to_light.dot(ray.direction), to_light.cross(ray.direction));
@@ -70,7 +71,7 @@ fn lamp(light: &Light, medium: &Medium, ray: &Ray, far: f64, h_of: &dyn Fn(f64, 
         }
         _ => vec![(whole, 1.0)],
     };
-    std::array::from_fn(|i| {
+    DVec3::from_array(std::array::from_fn(|i| {
         let extinction = medium.extinction[i];
         let u = extinction * h;
         let sum: f64 = parts.iter().map(|([low, high], falloff)| falloff * (h_of(u, *high) - h_of(u, *low))).sum();
@@ -79,7 +80,7 @@ fn lamp(light: &Light, medium: &Medium, ray: &Ray, far: f64, h_of: &dyn Fn(f64, 
             return 0.0;
         }
         medium.albedo[i] * extinction * intensity[i] * sum * exponent.exp() / h
-    })
+    }))
 }
 
 /// Parts of the ray that a spot lights, in theta, each with cos^N in its middle.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use tyndall_plugin::{Outputs, ReferenceInput};
+use tyndall_plugin::{Outputs, ReferenceInput, each_texel};
 use tyndall_shaders::phase::{Lobe, lobes, phase};
 use tyndall_shaders::reflection::glow_of;
 use tyndall_shaders::scene::Phase;
@@ -32,39 +32,50 @@ pub(super) fn row_of(depth: f64, cells: f64) -> f64 {
 
 /// The glow by the twin's sum, which is far finer than the pass's, and its coefficients by a sum over its nodes.
 pub(crate) fn zonal(input: &ReferenceInput<'_>) -> Outputs {
-    let kind = input.scene()?.medium.phase;
     let ([nodes, rows], [degrees, _]) = (input.size("glow")?, input.size("coefficients")?);
-    let at = scattering(&kind);
-    let (mut glow, mut coefficients) = (Vec::new(), Vec::new());
-    for row in 0..rows {
-        let depth = (row + 1 < rows).then(|| depth_at(f64::from(row), f64::from(rows - 2)));
-        let mut sums = vec![0.0; degrees as usize];
-        for node in 0..nodes {
-            let a = (FIRST_NODE + NODE_STEP * f64::from(node)).exp();
-            let gamma = 2.0 * a.atan();
-            let value = match depth {
-                Some(depth) => depth.exp() * glow_of(&at, depth, gamma),
-                None => at((gamma / 2.0).sin().powi(2)) * gamma.sin(),
-            };
-            // The first node stands for all that is nearer to the light.
-            let first = if node == 0 { 2.0 * a * (-0.5 * NODE_STEP).exp() } else { 0.0 };
-            let weight = 2.0 * PI * value * (NODE_STEP * gamma.sin() + first);
-            let mut polynomials = (0.0, 1.0);
-            for (degree, sum) in sums.iter_mut().enumerate() {
-                *sum += weight * polynomials.1;
-                let l = degree as f64;
-                let next = ((2.0 * l + 1.0) * gamma.cos() * polynomials.1 - l * polynomials.0) / (l + 1.0);
-                polynomials = (polynomials.1, next);
-            }
-            glow.push(value as f32);
+    let at = scattering(&input.scene()?.medium.phase);
+    let glow = each_texel([nodes, rows, 1], |[node, row, _]| {
+        let gamma = angle_of(node);
+        if row + 1 < rows {
+            let depth = depth_at(f64::from(row), f64::from(rows - 2));
+            depth.exp() * glow_of(&at, depth, gamma)
+        } else {
+            at((gamma / 2.0).sin().powi(2)) * gamma.sin()
         }
-        coefficients.extend(sums.into_iter().map(|sum| sum as f32));
+    });
+    let coefficients = each_texel([1, rows, 1], |[_, row, _]| {
+        coefficients(&glow[(row * nodes) as usize..][..nodes as usize], degrees as usize)
+    });
+    let numbers = |values: Vec<f64>| values.into_iter().map(|value| value as f32).collect();
+    Ok(BTreeMap::from([("glow", numbers(glow)), ("coefficients", numbers(coefficients.concat()))]))
+}
+
+/// gamma of a node.
+fn angle_of(node: u32) -> f64 {
+    2.0 * (FIRST_NODE + NODE_STEP * f64::from(node)).exp().atan()
+}
+
+/// The zonal coefficients of a row of the glow.
+fn coefficients(glow: &[f64], degrees: usize) -> Vec<f64> {
+    let mut sums = vec![0.0; degrees];
+    for (node, value) in (0..).zip(glow) {
+        let gamma = angle_of(node);
+        // The first node stands for all that is nearer to the light.
+        let first = if node == 0 { 2.0 * (gamma / 2.0).tan() * (-0.5 * NODE_STEP).exp() } else { 0.0 };
+        let weight = 2.0 * PI * value * (NODE_STEP * gamma.sin() + first);
+        let mut polynomials = (0.0, 1.0);
+        for (degree, sum) in sums.iter_mut().enumerate() {
+            *sum += weight * polynomials.1;
+            let l = degree as f64;
+            let next = ((2.0 * l + 1.0) * gamma.cos() * polynomials.1 - l * polynomials.0) / (l + 1.0);
+            polynomials = (polynomials.1, next);
+        }
     }
-    Ok(BTreeMap::from([("glow", glow.into()), ("coefficients", coefficients.into())]))
+    sums
 }
 
 /// The phase function at w, without lobes that the nodes do not see.
-fn scattering(kind: &Phase) -> Box<dyn Fn(f64) -> f64> {
+fn scattering(kind: &Phase) -> Box<dyn Fn(f64) -> f64 + Sync> {
     let lobes = lobes(kind);
     if matches!(kind, Phase::Measured(_)) || lobes.iter().all(|lobe| widened(lobe) == *lobe) {
         let kind = *kind;

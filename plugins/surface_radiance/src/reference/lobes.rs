@@ -4,11 +4,10 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use tyndall_plugin::{Outputs, PortData, ReferenceInput, Resource};
+use tyndall_plugin::{Outputs, PortData, ReferenceInput, each_texel};
 use tyndall_shaders::scene::CosineLobe;
 
 use super::around::{FIRST_NODE, NODE_STEP};
-use super::texel;
 
 /// The largest shininess that zonal coefficients are used for.
 const ZONAL_MOST: f64 = 30.0;
@@ -53,31 +52,23 @@ impl AngleAxis {
 /// Every layer of the table.
 pub(crate) fn lobes(input: &ReferenceInput<'_>) -> Outputs {
     let (glow, coefficients) = (input.input("glow")?, input.input("coefficients")?);
-    let [width, height] = input.size("table")?;
-    let Some(Resource::Texture { depth_or_layers: layers, .. }) = input.resources.get("table") else {
-        return Err("`table` is no texture".to_owned());
-    };
-    let mut table = vec![0.0; (width * height * layers * 4) as usize];
-    let of_scene = &input.scene()?.cosine_lobes;
-    for (layer, lobe) in std::iter::once(&LAMBERT).chain(of_scene).enumerate() {
-        let columns: Vec<Vec<f64>> = {
-            let cutoff = if lobe.is_spot { lobe.cos_cutoff } else { -1.0 };
-            let axis = AngleAxis::new(lobe.exponent, cutoff, width);
-            (0..=width).map(|x| over_lobe(lobe, axis.angle_at(f64::from(x)), glow, coefficients)).collect()
+    let ([width, height, layers], scene) = (input.extent("table")?, input.scene()?);
+    let lobes: Vec<&CosineLobe> = std::iter::once(&LAMBERT).chain(&scene.cosine_lobes).collect();
+    // Of the edges between columns, of which there is one more.
+    let columns = each_texel([width + 1, 1, lobes.len() as u32], |[x, _, layer]| {
+        let lobe = lobes[layer as usize];
+        let axis = AngleAxis::new(lobe.exponent, if lobe.is_spot { lobe.cos_cutoff } else { -1.0 }, width);
+        over_lobe(lobe, axis.angle_at(f64::from(x)), glow, coefficients)
+    });
+    let table = each_texel([width, height, layers], |[x, y, layer]| {
+        // The last row is a directional light's.
+        let rows = if y + 1 == height { [height; 2] } else { [y, y + 1] };
+        let edge = |column: u32, row: u32| {
+            columns.get((layer * (width + 1) + column) as usize).map_or(0.0, |column| column[row as usize] as f32)
         };
-        for y in 0..height {
-            // The last row is a directional light's.
-            let rows = if y + 1 == height { [height; 2] } else { [y, y + 1] };
-            for x in 0..width {
-                let at = (((layer as u32 * height + y) * width + x) * 4) as usize;
-                let corners = rows.into_iter().flat_map(|row| [x, x + 1].map(|column| (column, row)));
-                for (corner, (column, row)) in corners.enumerate() {
-                    table[at + corner] = columns[column as usize][row as usize] as f32;
-                }
-            }
-        }
-    }
-    Ok(BTreeMap::from([("table", table.into())]))
+        [edge(x, rows[0]), edge(x + 1, rows[0]), edge(x, rows[1]), edge(x + 1, rows[1])]
+    });
+    Ok(BTreeMap::from([("table", table.concat().into())]))
 }
 
 /// Of each row of the glow.
@@ -85,11 +76,11 @@ fn over_lobe(lobe: &CosineLobe, theta: f64, glow: &PortData, coefficients: &Port
     let nodes = across(lobe, theta, glow.width());
     let value = |row: u32| {
         let sum = if lobe.exponent <= ZONAL_MOST && !lobe.is_spot {
-            zonal_sum(lobe.exponent, theta, |l| texel(coefficients, 0, l, row)[0], coefficients.width())
+            zonal_sum(lobe.exponent, theta, |l| coefficients.texel([l, row, 0])[0], coefficients.width())
         } else {
-            nodes.iter().map(|(at, weight)| weight * cubic(*at, |node| texel(glow, 0, node, row)[0])).sum()
+            nodes.iter().map(|(at, weight)| weight * cubic(*at, |node| glow.texel([node, row, 0])[0])).sum()
         };
-        let unit = if lobe.is_spot { texel(coefficients, 0, 0, row)[0] } else { 2.0 * PI / (lobe.exponent + 1.0) };
+        let unit = if lobe.is_spot { coefficients.texel([0, row, 0])[0] } else { 2.0 * PI / (lobe.exponent + 1.0) };
         (sum / unit).max(0.0)
     };
     (0..glow.height()).map(value).collect()

@@ -3,19 +3,18 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use tyndall_plugin::descriptor::ParamValue;
 use tyndall_plugin::{Outputs, PortData, ReferenceInput};
 use tyndall_shaders::lights::incident;
 use tyndall_shaders::scene::{CosineLobe, HeightFog, Light, Scene};
 
 use super::around::row_of;
 use super::lobes::AngleAxis;
-use super::{Surface, of_surfaces, rgb, straight, texel};
+use super::{Surface, of_surfaces, rgb, straight};
 
 /// Light of every light, as the parameters ask for.
 pub(crate) fn phong(input: &ReferenceInput<'_>) -> Outputs {
-    let is_on = |param: &str| input.params.get(param) == Some(&ParamValue::Bool(true));
-    let (direct, table) = (is_on("direct"), if is_on("scattered") { Some(input.input("table")?) } else { None });
+    let table = if input.is_on("scattered") { Some(input.input("table")?) } else { None };
+    let direct = input.is_on("direct");
     of_surfaces(input, &HeightFog::NONE, |scene, light, surface| {
         let mut sum = DVec3::ZERO;
         if direct {
@@ -82,7 +81,7 @@ fn cell(table: &PortData, layer: u32, angle: f64, depth: Option<f64>) -> f64 {
         }
         None => (last, 0.0),
     };
-    let corners = texel(table, layer, column, row);
+    let corners = table.texel([column, row, layer]);
     let across = angle - f64::from(column);
     let mix = |a: f64, b: f64, part: f64| a + (b - a) * part;
     mix(mix(corners[0], corners[1], across), mix(corners[2], corners[3], across), down)

@@ -9,6 +9,7 @@ use std::f64::consts::PI;
 
 use desk::{ANGLES, Desk, LIGHTS, angle};
 use glam::DVec3;
+use rayon::prelude::*;
 use tyndall_shaders::phase::phase;
 use tyndall_shaders::reflection::{Field, Surface, scattered_from_all_around};
 use tyndall_shaders::scene::{Light, Medium, Phase};
@@ -102,17 +103,14 @@ fn lambert_and_phong_for_every_phase_function() {
         let pictures = desk.draw(&lights(), &materials(), &format!("{}, phase: {text}", medium()));
         let fields = fields(kind);
         // brute force takes its time: the lobes beside one another
-        let error_of = &|lobe: usize| {
+        let error_of = |lobe: usize| {
             let mut expected = truth(&fields, SHININESSES[lobe]);
             if lobe == 0 {
                 expected.iter_mut().flatten().flatten().for_each(|value| *value /= PI);
             }
             worst(&pictures[lobe], &expected)
         };
-        let errors: Vec<f64> = std::thread::scope(|scope| {
-            let lobes: Vec<_> = (0..SHININESSES.len()).map(|lobe| scope.spawn(move || error_of(lobe))).collect();
-            lobes.into_iter().map(|lobe| lobe.join().unwrap()).collect()
-        });
+        let errors: Vec<f64> = (0..SHININESSES.len()).into_par_iter().map(error_of).collect();
         let listed: Vec<String> = errors.iter().map(|error| format!("{error:.1e}")).collect();
         println!("{text}: Lambert and {:?}: {}", &SHININESSES[1..], listed.join(", "));
         assert!(errors[0] < 5e-3 && errors[1..].iter().all(|error| *error < 1e-2), "{text}: {errors:?}");
