@@ -247,7 +247,7 @@ pub(crate) struct Test {
     #[arg(long, value_name = "N")]
     pub frame: Option<u32>,
     /// Replace goldens that are missing, different or stale by what is rendered
-    #[arg(long, conflicts_with_all = ["isolate", "size", "no_goldens"])]
+    #[arg(long, conflicts_with_all = ["isolate", "size", "at_most", "no_goldens", "no_references"])]
     pub bless: bool,
     /// Also bless goldens that were made on another class of adapters
     #[arg(long, requires = "bless")]
@@ -267,9 +267,15 @@ pub(crate) struct Test {
     /// Ignore goldens: check only properties, references on the CPU and relations
     #[arg(long)]
     pub no_goldens: bool,
+    /// Ignore references on the CPU
+    #[arg(long)]
+    pub no_references: bool,
     /// Size instead of the tests' own, such as 32x32; goldens are ignored
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<(u32, u32)>,
+    /// Largest size, such as 32x32, of tests that are larger; their goldens are ignored
+    #[arg(long, value_name = "WxH", value_parser = size, conflicts_with = "size")]
+    pub at_most: Option<(u32, u32)>,
     /// Render again in another valid order, chosen by SEED: every port must be bit-equal
     #[arg(long, value_name = "SEED")]
     pub shuffle: Option<u64>,

@@ -19,6 +19,8 @@ pub struct Options {
     pub isolate: bool,
     /// Leave goldens and other renderers' pictures out: properties, references on the CPU and relations alone.
     pub without_goldens: bool,
+    /// Leave references on the CPU out.
+    pub without_references: bool,
     /// Ask no more than what tells whose fault it is once something does not hold: no relations, and nothing of ports that
     /// were made from one that fails.
     pub fail_fast: bool,
@@ -29,6 +31,8 @@ pub struct Options {
     pub digest: bool,
     /// Another size than the test says, in pixels. Goldens are left out, and whatever else is stated for a size.
     pub size: Option<(u32, u32)>,
+    /// The largest size, in pixels: a test of a larger one runs in this one, as if `size` said so.
+    pub at_most: Option<(u32, u32)>,
     /// Render again in other ways, and hold every port against the first rendering, bit by bit.
     pub robustness: Robustness,
     /// Keep what a report shows: pictures of ports that pass too, and the time of every pass.
@@ -36,6 +40,13 @@ pub struct Options {
 }
 
 impl Options {
+    /// The size in which a test runs that says this one.
+    pub(crate) fn size_of(&self, own: (u32, u32)) -> (u32, u32) {
+        let most = self.at_most.unwrap_or((u32::MAX, u32::MAX));
+        let (width, height) = self.size.unwrap_or(own);
+        (width.min(most.0), height.min(most.1))
+    }
+
     /// Whether ports of a frame are judged.
     pub(crate) fn looks_at(&self, frame: u32) -> bool {
         self.frame.is_none_or(|chosen| chosen == frame)
@@ -77,5 +88,18 @@ impl Robustness {
             ways.push((format!("{name}, no memory shared"), Variation { share: false, ..base }));
         }
         if self.any() { ways } else { Vec::new() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_test_runs_larger_than_it_says_for_the_sake_of_a_largest_size() {
+        let most = Options { at_most: Some((32, 32)), ..Options::default() };
+        assert_eq!([(48, 36), (8, 6), (40, 12)].map(|own| most.size_of(own)), [(32, 32), (8, 6), (32, 12)]);
+        let other = Options { size: Some((64, 48)), ..Options::default() };
+        assert_eq!((other.size_of((8, 6)), Options::default().size_of((8, 6))), ((64, 48), (8, 6)));
     }
 }

@@ -162,26 +162,27 @@ impl Session {
     ) -> Result<Ready, Error> {
         let mut out = Diagnostics::default();
         let Some(mut file) = read(path, &mut out) else { return Err(out.into()) };
-        let resized = options.size.is_some() && options.size != file.request.size;
-        if resized {
-            file.request.size = options.size;
-        }
+        let size = file.request.size.map(|own| options.size_of(own));
+        let resized = size != file.request.size;
+        file.request.size = size;
         let registry = registry.map_or_else(|| self.registry(&file.request.graph), |given| Ok(given.clone()))?;
         let Some(loaded) = load(&file.request, &registry, &mut out).filter(|_| !out.has_errors()) else {
             return Err(out.into());
         };
         let has_reference = |pass: &str| registry.pass(pass).is_some_and(|pass| pass.reference.is_some());
-        let tapped = check(&file, &loaded.graph, &has_reference, &mut out);
+        let mut tapped = check(&file, &loaded.graph, &has_reference, &mut out);
         if out.has_errors() {
             return Err(out.into());
         }
         outcome.warnings = out;
+        if options.without_references {
+            leave_out_references(&mut file, &mut tapped);
+        }
         let graph = &loaded.graph;
         let named = file.ports_named();
         let roots = tapped.iter().map(|tapped| tapped.port).chain(named.filter_map(|name| find(graph, name))).collect();
         let plan = Self::plan(&loaded.graph, Roots::Ports(roots), Variation::PLAIN)?;
         let records = Records::read(&file.goldens())?;
-        let mut tapped = tapped;
         tapped.sort_by_key(|tapped| plan.planned(tapped.port));
         let wanted = |tapped: &&Tapped| options.tap.as_ref().is_none_or(|pattern| matches(pattern, &tapped.name));
         let chosen: Vec<&Tapped> = tapped.iter().filter(wanted).collect();
@@ -336,6 +337,16 @@ impl Ready {
     /// The name of a golden.
     pub fn key(&self, port: &str, frame: u32) -> String {
         golden::key(port, frame, self.file.frames.len() > 1)
+    }
+}
+
+/// Takes away whatever asks a reference on the CPU.
+fn leave_out_references(file: &mut TestFile, tapped: &mut [Tapped]) {
+    for port in tapped {
+        port.properties.retain(|property| !matches!(property, Property::CpuReference { .. }));
+    }
+    for relation in &mut file.relations {
+        relation.expect.retain(|expectation| !matches!(expectation.change, Change::CpuReference(_)));
     }
 }
 

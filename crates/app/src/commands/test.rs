@@ -70,7 +70,8 @@ fn write(verb: &Test, run: &Run, report: Option<Report>) -> Result<(), Failure> 
 fn options(verb: &Test) -> Result<Options, Failure> {
     let robustness =
         Robustness { shuffle: verb.shuffle, poison: verb.poison, no_sharing: verb.no_sharing, repeat: verb.repeat };
-    if verb.isolate && (robustness.any() || verb.size.is_some() || verb.no_goldens) {
+    let in_part = verb.no_goldens || verb.no_references;
+    if verb.isolate && (robustness.any() || verb.size.or(verb.at_most).is_some() || in_part) {
         return Err(Failure::Usage(
             "--isolate runs passes alone from goldens, and cannot be combined with other ways to run".to_owned(),
         ));
@@ -82,7 +83,9 @@ fn options(verb: &Test) -> Result<Options, Failure> {
         frame: verb.frame,
         isolate: verb.isolate,
         without_goldens: verb.no_goldens,
+        without_references: verb.no_references,
         size: verb.size,
+        at_most: verb.at_most,
         robustness,
         for_report: verb.report.is_some(),
         ..Options::default()
