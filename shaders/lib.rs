@@ -12,6 +12,7 @@ pub mod height_fog;
 pub mod lights;
 pub mod medium;
 pub mod phase;
+pub mod phase_functions;
 pub mod phase_table;
 pub mod quadrature;
 pub mod ray;

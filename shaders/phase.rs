@@ -1,35 +1,11 @@
 //! Phase functions, 1/sr: twin of `phase.wgsl`.
 
 #[doc(inline)]
+pub use crate::phase_functions::{Interval, PHASE_FUNCTIONS, Parameter, Phase, PhaseFunction, lobes, phase};
+#[doc(inline)]
 pub use crate::phase_table::PhaseTable;
 use crate::quadrature::integrate;
-use crate::scene::Phase;
 use std::f64::consts::PI;
-
-/// The share of scattered light that goes into a direction, 1/sr; `w` is sin² of half the scattering angle, (1 − µ)/2,
-/// where µ = 1 is forward. Henyey and Greenstein 1941; Blasi, Le Saëc and Schlick 1993, eq. 3, with k above 0 forward;
-/// Cornette and Shanks 1992, eq. 8; Jendersie and d'Eon 2023.
-pub fn phase(phase: &Phase, w: f64) -> f64 {
-    let mu = 1.0 - 2.0 * w;
-    match *phase {
-        Phase::Isotropic => 1.0 / (4.0 * PI),
-        Phase::HenyeyGreenstein { g } => henyey_greenstein(g, w),
-        Phase::DoubleHenyeyGreenstein { g1, g2, f } => {
-            (1.0 - f) * henyey_greenstein(g1, w) + f * henyey_greenstein(g2, w)
-        }
-        // 1 - k mu = 1 - k + 2 k w
-        Phase::Schlick { k } => (1.0 - k) * (1.0 + k) / (4.0 * PI * (1.0 - k + 2.0 * k * w).powi(2)),
-        Phase::Rayleigh => 3.0 / (16.0 * PI) * (1.0 + mu * mu),
-        Phase::CornetteShanks { g } => henyey_greenstein(g, w) * 1.5 * (1.0 + mu * mu) / (2.0 + g * g),
-        Phase::Droplets { diameter } => {
-            let Droplets { g_hg, g_d, alpha, w_d } = droplets(diameter);
-            let draine =
-                henyey_greenstein(g_d, w) * (1.0 + alpha * mu * mu) / (1.0 + alpha * (1.0 + 2.0 * g_d * g_d) / 3.0);
-            (1.0 - w_d) * henyey_greenstein(g_hg, w) + w_d * draine
-        }
-        Phase::Measured(table) => table.at(2.0 * w.max(0.0).sqrt().atan2((1.0 - w).max(0.0).sqrt())),
-    }
-}
 
 /// Where a phase function is not smooth, in u with w = 1/(1 + e^(−2u)): at the rows of a table.
 pub fn kinks(phase: &Phase) -> Vec<f64> {
@@ -38,34 +14,6 @@ pub fn kinks(phase: &Phase) -> Vec<f64> {
         Phase::Measured(table) => table.angles().iter().map(|angle| (angle / 2.0).tan().ln()).collect(),
         _ => Vec::new(),
     }
-}
-
-/// Parameters of the mixture of Henyey and Greenstein's function and Draine's, after Jendersie and d'Eon 2023.
-struct Droplets {
-    /// g of Henyey and Greenstein's function: the diffraction peak.
-    g_hg: f64,
-    /// g and α of Draine's function (Draine 2003).
-    g_d: f64,
-    alpha: f64,
-    /// Weight of Draine's function.
-    w_d: f64,
-}
-
-/// Jendersie and d'Eon 2023, "An approximate Mie scattering function for fog and cloud rendering": their fit for droplets
-/// of water of a diameter from 5 to 50 µm, in visible light.
-fn droplets(diameter: f64) -> Droplets {
-    Droplets {
-        g_hg: (-0.099_056_7 / (diameter - 1.671_54)).exp(),
-        g_d: (-2.206_79 / (diameter + 3.910_29) - 0.428_934).exp(),
-        alpha: (3.624_89 - 8.292_88 / (diameter + 5.528_25)).exp(),
-        w_d: (-0.599_085 / (diameter - 0.641_583) - 0.665_888).exp(),
-    }
-}
-
-/// 1 + g² − 2gµ = (1 − g)² + 4gw, which does not cancel near µ = 1.
-fn henyey_greenstein(g: f64, w: f64) -> f64 {
-    let q = (1.0 - g).powi(2) + 4.0 * g * w;
-    (1.0 - g) * (1.0 + g) / (4.0 * PI * q * q.sqrt())
 }
 
 /// One lobe of a phase function: twin of `Lobe` of `scene.wgsl`, `scale·q^(−3/2 or −2)·(1 + mu_squared·µ²)` with
@@ -84,14 +32,20 @@ pub struct Lobe {
 
 impl Lobe {
     /// Henyey and Greenstein's: (1 − g²)/(1 + g)³ = rho·(1 + rho)/2.
-    fn henyey_greenstein(g: f64, weight: f64) -> Self {
+    pub(crate) fn henyey_greenstein(g: f64, weight: f64) -> Self {
         let rho = (1.0 - g) / (1.0 + g);
         Lobe { rho, scale: weight * rho * (1.0 + rho) / (8.0 * PI), squared: false, mu_squared: 0.0 }
     }
 
+    /// Schlick's.
+    pub(crate) fn schlick(k: f64) -> Self {
+        let rho = ((1.0 - k) / (1.0 + k)).sqrt();
+        Lobe { rho, scale: rho * rho / (4.0 * PI), squared: true, mu_squared: 0.0 }
+    }
+
     /// Times (1 + c·µ²), and as much smaller as that makes it larger: over the sphere, the mean of µ² over Henyey and
     /// Greenstein's function is (1 + 2·g²)/3.
-    fn times_mu_squared(self, c: f64, g: f64) -> Self {
+    pub(crate) fn times_mu_squared(self, c: f64, g: f64) -> Self {
         Lobe { scale: self.scale / (1.0 + c * (1.0 + 2.0 * g * g) / 3.0), mu_squared: c, ..self }
     }
 
@@ -99,30 +53,6 @@ impl Lobe {
     pub fn at(&self, w: f64) -> f64 {
         let (q, mu) = (self.rho * self.rho * (1.0 - w) + w, 1.0 - 2.0 * w);
         self.scale * q.powf(if self.squared { -2.0 } else { -1.5 }) * (1.0 + self.mu_squared * mu * mu)
-    }
-}
-
-/// The lobes of a phase function, one or two. A measured one has none of its own: what is given for it has its mean
-/// cosine, and says only about how wide it is.
-pub fn lobes(phase: &Phase) -> Vec<Lobe> {
-    match *phase {
-        Phase::Isotropic => vec![Lobe::henyey_greenstein(0.0, 1.0)],
-        Phase::HenyeyGreenstein { g } => vec![Lobe::henyey_greenstein(g, 1.0)],
-        Phase::DoubleHenyeyGreenstein { g1, g2, f } => {
-            vec![Lobe::henyey_greenstein(g1, 1.0 - f), Lobe::henyey_greenstein(g2, f)]
-        }
-        Phase::Schlick { k } => {
-            let rho = ((1.0 - k) / (1.0 + k)).sqrt();
-            vec![Lobe { rho, scale: rho * rho / (4.0 * PI), squared: true, mu_squared: 0.0 }]
-        }
-        Phase::Rayleigh => vec![Lobe::henyey_greenstein(0.0, 1.0).times_mu_squared(1.0, 0.0)],
-        Phase::CornetteShanks { g } => vec![Lobe::henyey_greenstein(g, 1.0).times_mu_squared(1.0, g)],
-        Phase::Droplets { diameter } => {
-            let Droplets { g_hg, g_d, alpha, w_d } = droplets(diameter);
-            let draine = Lobe::henyey_greenstein(g_d, w_d).times_mu_squared(alpha, g_d);
-            vec![Lobe::henyey_greenstein(g_hg, 1.0 - w_d), draine]
-        }
-        Phase::Measured(table) => vec![Lobe::henyey_greenstein(table.mean(|mu| mu).clamp(-0.999, 0.999), 1.0)],
     }
 }
 
@@ -153,9 +83,12 @@ pub fn legendre(kind: &Phase) -> [f64; 4] {
 mod tests {
     use super::*;
 
+    /// Each phase function with parameters all over their ranges, and some that are hard.
     fn all() -> Vec<Phase> {
-        let mut all = vec![Phase::Isotropic, Phase::Rayleigh];
-        all.extend([5.0, 8.0, 20.0, 50.0].map(|diameter| Phase::Droplets { diameter }));
+        let shares = [0.005, 0.1, 0.25, 0.5, 0.65, 0.875, 0.95, 0.995];
+        let at = |share: f64| PHASE_FUNCTIONS.iter().map(move |of| (of.make)(&mut |p| Some(p.range.at(share))));
+        let mut all: Vec<Phase> = shares.into_iter().flat_map(at).flatten().collect();
+        assert_eq!(all.len(), shares.len() * PHASE_FUNCTIONS.len());
         for g in [-0.99, -0.5, 0.0, 0.3, 0.75, 0.9, 0.99, 0.999_999] {
             all.push(Phase::HenyeyGreenstein { g });
             all.push(Phase::Schlick { k: g });
@@ -216,23 +149,6 @@ mod tests {
             assert!(close(Phase::CornetteShanks { g: 0.0 }, Phase::Rayleigh));
             let two = Phase::DoubleHenyeyGreenstein { g1: 0.7, g2: -0.2, f: 1.0 };
             assert!(close(two, Phase::HenyeyGreenstein { g: -0.2 }));
-        }
-    }
-
-    /// Against Mie's series for water droplets (refractive index 1.334, 0.55 µm, gamma distribution of effective variance
-    /// 0.1): the mean cosine is met within 0.02 over the whole range, as the fit is of peaks without rings.
-    #[test]
-    fn droplets_have_the_mean_cosine_of_water() {
-        for (diameter, mie) in
-            [(5.0, 0.8241), (8.0, 0.8434), (10.0, 0.8481), (20.0, 0.8632), (35.0, 0.8709), (50.0, 0.8748)]
-        {
-            let mean = mean(&Phase::Droplets { diameter }, |mu| mu);
-            assert!((mean - mie).abs() < 0.02, "{diameter}: {mean} {mie}");
-            // the closed form of the two lobes
-            let Droplets { g_hg, g_d, alpha, w_d } = droplets(diameter);
-            let draine =
-                g_d * (1.0 + alpha * (3.0 + 2.0 * g_d * g_d) / 5.0) / (1.0 + alpha * (1.0 + 2.0 * g_d * g_d) / 3.0);
-            assert!((mean - (1.0 - w_d) * g_hg - w_d * draine).abs() < 1e-9);
         }
     }
 

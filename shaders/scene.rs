@@ -1,6 +1,7 @@
 //! The part of a scene that light scattering needs, in double precision: twin of `scene.wgsl`.
 
-use crate::phase::PhaseTable;
+#[doc(inline)]
+pub use crate::phase_functions::Phase;
 use glam::{DVec2, DVec3};
 
 /// A triangle that casts a shadow, world, m.
@@ -52,50 +53,6 @@ pub struct Camera {
     /// Unit vector.
     pub forward: DVec3,
 }
-
-/// A phase function: how a scattering event spreads light over directions.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Phase {
-    /// The same everywhere, 1/(4π).
-    #[default]
-    Isotropic,
-    /// Henyey and Greenstein 1941.
-    HenyeyGreenstein {
-        /// Mean cosine, above 0 forward.
-        g: f64,
-    },
-    /// Two Henyey-Greenstein lobes.
-    DoubleHenyeyGreenstein {
-        /// Mean cosine of the first.
-        g1: f64,
-        /// Mean cosine of the second.
-        g2: f64,
-        /// Weight of the second, 0..1.
-        f: f64,
-    },
-    /// Blasi, Le Saëc and Schlick 1993.
-    Schlick {
-        /// Above 0 forward.
-        k: f64,
-    },
-    /// Molecules.
-    Rayleigh,
-    /// Cornette and Shanks 1992.
-    CornetteShanks {
-        /// Their g, which is not the mean cosine.
-        g: f64,
-    },
-    /// Water droplets of fog and clouds: Jendersie and d'Eon 2023.
-    Droplets {
-        /// Diameter, µm, within [`DROPLET_DIAMETERS`].
-        diameter: f64,
-    },
-    /// A table. Tables live as long as the process, one of each content, so that a phase function is a plain value.
-    Measured(&'static PhaseTable),
-}
-
-/// The diameters of droplets, µm, for which Jendersie and d'Eon give the fit that [`Phase::Droplets`] is.
-pub const DROPLET_DIAMETERS: (f64, f64) = (5.0, 50.0);
 
 /// A medium that fills space: homogeneous, unless a [`HeightFog`] goes with it.
 #[derive(Debug, Clone, Copy, PartialEq)]

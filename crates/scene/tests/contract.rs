@@ -5,6 +5,7 @@ use std::path::Path;
 use tyndall_document::{Diagnostics, Source, render_text};
 use tyndall_scene::layout;
 use tyndall_scene::{Override, Overrides, Phase, SCENE_DATA, Scene};
+use tyndall_shaders::phase::PHASE_FUNCTIONS;
 
 fn read_with(text: &str, overrides: &[(&str, &str)]) -> Result<Scene, Diagnostics> {
     let mut out = Diagnostics::default();
@@ -103,6 +104,26 @@ fn defaults() {
     assert_eq!(view::<layout::Phase>(&given, "phase"), isotropic);
     let spot = items::<layout::Light>(&given, "lights")[0];
     assert_eq!((spot.cos_cutoff, spot.exponent, spot.radius), (0.0, 0.0, 0.0));
+}
+
+#[test]
+fn every_phase_function_is_read_and_encoded() {
+    for function in PHASE_FUNCTIONS {
+        for share in [0.1, 0.4, 0.9] {
+            let values: Vec<f64> = function.parameters.iter().map(|parameter| parameter.range.at(share)).collect();
+            let expected = (function.make)(&mut |parameter| Some(parameter.range.at(share))).expect("all have a value");
+            let written = |named: bool| {
+                let names =
+                    function.parameters.iter().map(|p| if named { format!("{}: ", p.name) } else { String::new() });
+                names.zip(&values).map(|(name, value)| format!("{name}{value:?}")).collect::<Vec<_>>().join(", ")
+            };
+            for text in [written(true), written(false)] {
+                let scene = with_camera(&format!("medium: (phase: {}({text}))", function.name));
+                assert_eq!(scene.medium.as_ref().expect("a medium").phase, expected, "{text}");
+                assert_eq!(view::<layout::Phase>(&scene, "phase"), layout::Phase::from(&expected), "{text}");
+            }
+        }
+    }
 }
 
 #[test]

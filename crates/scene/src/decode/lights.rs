@@ -1,10 +1,10 @@
 //! `lights: [Point(…), Spot(…), Directional(…)]`.
 
 use glam::DVec3;
-use tyndall_document::{Decoder, Fields, Node, Value};
+use tyndall_document::{Decoder, Fields, Node};
 
-use super::given;
 use super::values::{Range, animated, animated_direction, animated_power, number, vector};
+use super::{given, variant};
 use crate::animate::Animated;
 use crate::model::{Light, LightKind, Placement};
 
@@ -15,14 +15,7 @@ pub(super) fn lights(decoder: &mut Decoder, node: &Node) -> Option<Vec<Light>> {
 }
 
 fn light(decoder: &mut Decoder, node: &Node) -> Option<Light> {
-    let (kind, content) = decoder.variant(node, "a light", &["Point", "Spot", "Directional"])?;
-    let empty = Node { span: node.span, value: Value::Unit };
-    let content = content.unwrap_or(&empty);
-    match kind {
-        "Point" => point(decoder, content),
-        "Spot" => spot(decoder, content),
-        _ => directional(decoder, content),
-    }
+    variant(decoder, node, "a light", &[("Point", point), ("Spot", spot), ("Directional", directional)])
 }
 
 fn point(decoder: &mut Decoder, node: &Node) -> Option<Light> {

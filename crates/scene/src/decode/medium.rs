@@ -2,10 +2,11 @@
 
 use glam::DVec3;
 use tyndall_document::{Decoder, Diagnostic, Fields, MISSING_FIELD, Node, Span, Value};
-use tyndall_shaders::scene::{DROPLET_DIAMETERS, HeightFog, Phase};
+use tyndall_shaders::phase::{PHASE_FUNCTIONS, PhaseFunction};
+use tyndall_shaders::scene::{HeightFog, Phase};
 
 use super::values::{Range, number, vector};
-use super::{given, parts_of};
+use super::{given, parts_of, path};
 use crate::model::Medium;
 
 /// What a scene file says of the medium.
@@ -61,65 +62,27 @@ enum PhaseDraft {
     File(String, Span),
 }
 
-const PHASES: &[&str] = &[
-    "Isotropic",
-    "HenyeyGreenstein",
-    "DoubleHenyeyGreenstein",
-    "Schlick",
-    "Rayleigh",
-    "CornetteShanks",
-    "Droplets",
-    "Measured",
-];
+/// The phase function whose table stands in a file of its own.
+const MEASURED: &str = "Measured";
 
 fn phase(decoder: &mut Decoder, node: &Node) -> Option<PhaseDraft> {
-    let (name, content) = decoder.variant(node, "a phase function", PHASES)?;
-    let names: &[&str] = match name {
-        "HenyeyGreenstein" | "CornetteShanks" => &["g"],
-        "DoubleHenyeyGreenstein" => &["g1", "g2", "f"],
-        "Schlick" => &["k"],
-        "Droplets" => &["diameter"],
-        _ => &[],
-    };
+    let names: Vec<&str> = PHASE_FUNCTIONS.iter().map(|function| function.name).chain([MEASURED]).collect();
+    let (name, content) = decoder.variant(node, "a phase function", &names)?;
     let empty = Node { span: node.span, value: Value::Unit };
     let content = content.unwrap_or(&empty);
-    if name == "Measured" {
-        return file(decoder, content);
+    match PHASE_FUNCTIONS.iter().find(|function| function.name == name) {
+        Some(function) => parameters(decoder, content, function).map(PhaseDraft::Known),
+        None => path(decoder, content, "Measured(\"fog.phase.txt\")").map(|(path, span)| PhaseDraft::File(path, span)),
     }
-    // The contract names a parameter by its letter alone: `HenyeyGreenstein(0.75)` is as clear as `(g: 0.75)`.
-    let nodes: Vec<&Node> = match &content.value {
-        Value::Tuple(items) if !items.is_empty() && items.len() == names.len() => items.iter().collect(),
-        _ => parts_of(decoder, content, name, names)?,
-    };
-    let mut values = Vec::new();
-    for (name, node) in names.iter().zip(nodes) {
-        let range = match *name {
-            "f" => Range::Unit,
-            "diameter" => Range::Within(DROPLET_DIAMETERS.0, DROPLET_DIAMETERS.1),
-            _ => Range::Between(-1.0, 1.0),
-        };
-        values.push(number(decoder, node, name, range));
-    }
-    let values: Vec<f64> = values.into_iter().collect::<Option<_>>()?;
-    Some(PhaseDraft::Known(match (name, values.as_slice()) {
-        ("HenyeyGreenstein", &[g]) => Phase::HenyeyGreenstein { g },
-        ("CornetteShanks", &[g]) => Phase::CornetteShanks { g },
-        ("DoubleHenyeyGreenstein", &[g1, g2, f]) => Phase::DoubleHenyeyGreenstein { g1, g2, f },
-        ("Schlick", &[k]) => Phase::Schlick { k },
-        ("Droplets", &[diameter]) => Phase::Droplets { diameter },
-        ("Rayleigh", _) => Phase::Rayleigh,
-        _ => Phase::Isotropic,
-    }))
 }
 
-fn file(decoder: &mut Decoder, content: &Node) -> Option<PhaseDraft> {
-    match &content.value {
-        Value::Tuple(items) if items.len() == 1 => {
-            decoder.text(&items[0]).map(|text| PhaseDraft::File(text.to_owned(), items[0].span))
-        }
-        _ => {
-            decoder.wrong_type(content, "a path: `Measured(\"fog.phase.txt\")`");
-            None
-        }
-    }
+/// `HenyeyGreenstein(0.75)` is as clear as `HenyeyGreenstein(g: 0.75)`.
+fn parameters(decoder: &mut Decoder, content: &Node, function: &PhaseFunction) -> Option<Phase> {
+    let names: Vec<&str> = function.parameters.iter().map(|parameter| parameter.name).collect();
+    let nodes: Vec<&Node> = match &content.value {
+        Value::Tuple(items) if !items.is_empty() && items.len() == names.len() => items.iter().collect(),
+        _ => parts_of(decoder, content, function.name, &names)?,
+    };
+    let mut nodes = nodes.into_iter();
+    (function.make)(&mut |parameter| number(decoder, nodes.next()?, parameter.name, parameter.range.into()))
 }

@@ -7,7 +7,7 @@ mod objects;
 mod values;
 
 use glam::DVec3;
-use tyndall_document::{Decoder, Node};
+use tyndall_document::{Decoder, Node, Span, Value};
 
 pub(crate) use self::camera::CameraDraft;
 pub(crate) use self::medium::MediumDraft;
@@ -44,6 +44,29 @@ fn given<T>(node: Option<&Node>, default: T, read: impl FnOnce(&Node) -> Option<
     match node {
         Some(node) => read(node),
         None => Some(default),
+    }
+}
+
+/// Reads the content of a variant.
+type Reader<T> = fn(&mut Decoder, &Node) -> Option<T>;
+
+/// Reads a variant by the reader that stands beside its name; one without content has `()` read.
+fn variant<T>(decoder: &mut Decoder, node: &Node, what: &str, readers: &[(&str, Reader<T>)]) -> Option<T> {
+    let names: Vec<&str> = readers.iter().map(|(name, _)| *name).collect();
+    let (name, content) = decoder.variant(node, what, &names)?;
+    let (_, read) = readers.iter().find(|(known, _)| *known == name)?;
+    let empty = Node { span: node.span, value: Value::Unit };
+    read(decoder, content.unwrap_or(&empty))
+}
+
+/// The one path that a variant holds, as written, and where; `example` shows what it looks like.
+fn path(decoder: &mut Decoder, node: &Node, example: &str) -> Option<(String, Span)> {
+    match &node.value {
+        Value::Tuple(items) if items.len() == 1 => decoder.text(&items[0]).map(|text| (text.to_owned(), items[0].span)),
+        _ => {
+            decoder.wrong_type(node, &format!("a path: `{example}`"));
+            None
+        }
     }
 }
 

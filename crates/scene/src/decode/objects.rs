@@ -1,10 +1,10 @@
 //! `objects: [(mesh, scale, rotation, translation, material, casts_shadow)]`.
 
 use glam::{DQuat, DVec3};
-use tyndall_document::{Decoder, Diagnostic, Fields, Node, OUT_OF_RANGE, Span, Value};
+use tyndall_document::{Decoder, Diagnostic, Fields, Node, OUT_OF_RANGE, Span};
 
 use super::values::{Range, animated, direction, number, numbers, vector};
-use super::{given, parts_of};
+use super::{Reader, given, parts_of, path, variant};
 use crate::animate::Animated;
 use crate::codes::BRIGHTER_THAN_WHITE;
 use crate::model::Material;
@@ -81,54 +81,54 @@ fn material(decoder: &mut Decoder, node: &Node) -> Option<Material> {
 }
 
 fn mesh(decoder: &mut Decoder, node: &Node) -> Option<MeshDraft> {
-    let (kind, content) = decoder.variant(node, "a mesh", &["Sphere", "Box", "Torus", "Plane", "File"])?;
-    let empty = Node { span: node.span, value: Value::Unit };
-    let content = content.unwrap_or(&empty);
-    if kind == "File" {
-        return match &content.value {
-            Value::Tuple(items) if items.len() == 1 => {
-                decoder.text(&items[0]).map(|text| MeshDraft::File(text.to_owned(), items[0].span))
-            }
-            _ => {
-                decoder.wrong_type(content, "a path: `File(\"model.glb\")`");
-                None
-            }
-        };
-    }
-    let names: &[&str] = match kind {
-        "Sphere" => &["radius"],
-        "Torus" => &["major", "minor"],
-        _ => &["size"],
-    };
-    let fields = decoder.fields(content, &format!("a {kind}"), names)?;
-    primitive(decoder, kind, &fields).map(MeshDraft::Primitive)
+    let meshes: [(&str, Reader<MeshDraft>); 5] =
+        [("Sphere", sphere), ("Box", cuboid), ("Torus", torus), ("Plane", plane), ("File", file)];
+    variant(decoder, node, "a mesh", &meshes)
 }
 
-fn primitive(decoder: &mut Decoder, kind: &str, fields: &Fields) -> Option<Primitive> {
-    let mut measure = |name| {
-        let node = fields.required(decoder, name)?;
-        number(decoder, node, name, Range::Positive)
-    };
-    match kind {
-        "Sphere" => Some(Primitive::Sphere { radius: measure("radius")? }),
-        "Torus" => {
-            let (major, minor) = (measure("major"), measure("minor"));
-            let (major, minor) = (major?, minor?);
-            if minor < major {
-                return Some(Primitive::Torus { major, minor });
-            }
-            let node = fields.get("minor")?;
-            let message = format!("`minor` is {minor}; it must be below `major`, {major}, or the tube meets itself");
-            decoder.report(Diagnostic::error(OUT_OF_RANGE, decoder.place(node.span), message));
-            None
-        }
-        _ => {
-            let node = fields.required(decoder, "size")?;
-            if kind == "Box" {
-                numbers::<3>(decoder, node, "size", Range::Positive).map(|size| Primitive::Box { size })
-            } else {
-                numbers::<2>(decoder, node, "size", Range::Positive).map(|size| Primitive::Plane { size })
-            }
-        }
+fn sphere(decoder: &mut Decoder, node: &Node) -> Option<MeshDraft> {
+    let fields = decoder.fields(node, "a Sphere", &["radius"])?;
+    let radius = measure(decoder, &fields, "radius")?;
+    Some(MeshDraft::Primitive(Primitive::Sphere { radius }))
+}
+
+fn cuboid(decoder: &mut Decoder, node: &Node) -> Option<MeshDraft> {
+    let size = size(decoder, node, "a Box")?;
+    Some(MeshDraft::Primitive(Primitive::Box { size }))
+}
+
+fn torus(decoder: &mut Decoder, node: &Node) -> Option<MeshDraft> {
+    let fields = decoder.fields(node, "a Torus", &["major", "minor"])?;
+    let (major, minor) = (measure(decoder, &fields, "major"), measure(decoder, &fields, "minor"));
+    let (major, minor) = (major?, minor?);
+    if minor < major {
+        return Some(MeshDraft::Primitive(Primitive::Torus { major, minor }));
     }
+    let message = format!("`minor` is {minor}; it must be below `major`, {major}, or the tube meets itself");
+    let place = decoder.place(fields.get("minor")?.span);
+    decoder.report(Diagnostic::error(OUT_OF_RANGE, place, message));
+    None
+}
+
+fn plane(decoder: &mut Decoder, node: &Node) -> Option<MeshDraft> {
+    let size = size(decoder, node, "a Plane")?;
+    Some(MeshDraft::Primitive(Primitive::Plane { size }))
+}
+
+fn file(decoder: &mut Decoder, node: &Node) -> Option<MeshDraft> {
+    let (path, span) = path(decoder, node, "File(\"model.glb\")")?;
+    Some(MeshDraft::File(path, span))
+}
+
+/// A length of a primitive.
+fn measure(decoder: &mut Decoder, fields: &Fields, name: &str) -> Option<f64> {
+    let node = fields.required(decoder, name)?;
+    number(decoder, node, name, Range::Positive)
+}
+
+/// The edge lengths of a primitive.
+fn size<const N: usize>(decoder: &mut Decoder, node: &Node, what: &str) -> Option<[f64; N]> {
+    let fields = decoder.fields(node, what, &["size"])?;
+    let node = fields.required(decoder, "size")?;
+    numbers(decoder, node, "size", Range::Positive)
 }

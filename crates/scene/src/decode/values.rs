@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use tyndall_document::{Decoder, Diagnostic, Node, OUT_OF_RANGE, Value};
+use tyndall_shaders::phase::Interval;
 
 use crate::animate::{Animated, least_length};
 use crate::codes::{CONSTANT_ONLY, EMPTY_KEYS, UNSORTED_KEYS, ZERO_DIRECTION};
@@ -28,6 +29,15 @@ pub(super) enum Range {
     UpTo(f64),
     /// 0 or more, up to a value that is included.
     NotAbove(f64),
+}
+
+impl From<Interval> for Range {
+    fn from(interval: Interval) -> Self {
+        match interval {
+            Interval::Open(low, high) => Range::Between(low, high),
+            Interval::Closed(low, high) => Range::Within(low, high),
+        }
+    }
 }
 
 impl Range {
