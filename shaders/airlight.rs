@@ -1,6 +1,6 @@
 //! Airlight by adaptive quadrature: twin of `airlight.wgsl`, and independent of its nodes.
 //!
-//! In u = ln v = arsinh(s/h) (see the glossary of `airlight.wgsl`) a point light's airlight is
+//! In u = ln v = arsinh(s/h) (see the glossary of `airlight_pieces.wgsl`) a point light's airlight is
 //! `σ_s·I/h·∫ p(w)·e^(−σ_t·(t + h·eᵘ))/cosh u du` with w = 1/(1 + e^(−2u)): no peak is narrow, nothing cancels.
 
 use crate::cone::{ray_in_cone, spot_falloff};

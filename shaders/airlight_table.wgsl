@@ -1,7 +1,7 @@
 // Airlight of a point light by a table over two numbers, as the papers look it up: Hong's H and H_k.
 //
 //   theta     angle at the light from the ray's nearest point, the foot; grows along the ray from -pi/2 to pi/2
-//   tau       tan(theta/2 + pi/4) = (1 + sin(theta))/cos(theta), 0 to infinity: v of shaders/airlight.wgsl
+//   tau       tan(theta/2 + pi/4) = (1 + sin(theta))/cos(theta), 0 to infinity: v of airlight_pieces.wgsl
 //   u         sigma_t h, the optical depth of the light's distance h from the ray
 //   w         sin^2 of half the scattering angle, tau^2/(1 + tau^2); mu = 1 - 2 w = -sin(theta)
 //   t, x      foot of the ray and a place on it, m from the eye
@@ -25,7 +25,7 @@
 #import medium
 #import ray
 #import cone
-#import airlight
+#import airlight_pieces
 
 // The largest u of the table.
 const TABLE_DEPTH: f32 = 10.0;
@@ -144,7 +144,7 @@ fn lamp_by_table(table: texture_2d<f32>, weights: vec4<f32>, light: Light, ray: 
     let edges = (parts + 1u) * select(1u, 2u, is_spot && second.y > second.x);
     var sum = vec3<f32>(0.0);
     var before = vec3<f32>(0.0);
-    // over the edges of the parts; why the test stands at the end: see shaders/airlight.wgsl
+    // over the edges of the parts, in a loop as every_light.wgsl has it
     var i = 0u;
     loop {
         let edge = i % (parts + 1u);
@@ -167,14 +167,7 @@ fn lamp_by_table(table: texture_2d<f32>, weights: vec4<f32>, light: Light, ray: 
 // light and the ray: that light needs no table, as it reaches every point unattenuated (see directional_airlight).
 fn airlight_by_table(table: texture_2d<f32>, weights: vec4<f32>, light: Light, medium: Medium, ray: Ray, way: f32, scattering: f32) -> vec3<f32> {
     if light.kind == DIRECTIONAL {
-        let albedo = medium.scattering / max(medium.extinction, vec3<f32>(1e-30));
-        return albedo * light.intensity * scattering * opacity(medium, way);
+        return albedo(medium) * light.intensity * scattering * opacity(medium, way);
     }
     return medium.scattering * light.intensity * lamp_by_table(table, weights, light, ray, way, medium.extinction);
-}
-
-// sin^2 of half the angle by which a directional light must turn to go along the ray to the eye.
-fn directional_w(light: Light, ray: Ray) -> f32 {
-    let half_sum = 0.5 * (light.direction + ray.direction);
-    return dot(half_sum, half_sum);
 }

@@ -1,18 +1,19 @@
 // Light scattered once toward the eye in a medium whose density falls exponentially with the height y (height fog).
 //
-//   glossary of airlight.wgsl, and
+//   glossary of airlight_pieces.wgsl, and
 //   density   e^(-(y - base height) k), k = 1/scale height: sigma_t and sigma_s are those of density 1, times this
 //   climb     y of the ray's direction
 //   E, E_l    integral of the density along the ray from the eye, and from a point to the light, m (effective ways)
 //
 // Of a point light or spot
 //   L = sigma_s I/h * integral of p(mu) density e^(-sigma_t (E + E_l)) 2/(1 + v^2) dv
-// E and E_l are in closed form; the integral is done by the nodes of airlight.wgsl, in pieces within which the density
+// E and E_l are in closed form; the integral is done by the nodes of airlight_pieces.wgsl, in pieces within which the density
 // changes by no more than PIECE_DENSITY. Of a directional light all is in closed form, as the depth grows with E alone.
 
 #import scene
 #import medium
-#import airlight
+#import airlight_pieces
+#import node_sum
 
 // By how much, as a power of e, the density changes in a piece at most.
 const PIECE_DENSITY: f32 = 3.0;
@@ -49,38 +50,25 @@ fn way_of(climb: Climb, density: f32, effective: f32) -> f32 {
     return min(select(whole, series, abs(u) < 0.01), WAY_MAX);
 }
 
-// A node's share of the sum; `light_height` is of the light above the base, times k.
-fn at_height_node(piece: Piece, climb: Climb, light_height: f32, node: vec2<f32>) -> vec3<f32> {
+struct Integrand {
+    piece: Piece,
+    climb: Climb,
+    light_height: f32,          // of the light above the base, times k
+}
+
+// A node's share of the sum.
+fn at_node(integrand: Integrand, node: vec2<f32>) -> vec3<f32> {
+    let piece = integrand.piece;
+    let climb = integrand.climb;
     let sample = sample_of(piece, node);
     let inverse = 1.0 / max(sample.v, 1e-18);
     let x = max(piece.t + 0.5 * piece.h * (sample.v - inverse), 0.0);
     let r = 0.5 * piece.h * (sample.v + inverse);
     let density = density_along(climb, x);
     let eye = x * mean_density(climb.density, density, climb.rate * x);
-    let z = light_height - climb.height - climb.rate * x;
-    let light = r * mean_density(density, exp(min(-light_height, DENSITY_MAX)), z);
+    let z = integrand.light_height - climb.height - climb.rate * x;
+    let light = r * mean_density(density, exp(min(-integrand.light_height, DENSITY_MAX)), z);
     return sample.share * density * exp2(sample.falloff + piece.rate * (eye + light));
-}
-
-// A plain sum, as in airlight.wgsl.
-fn height_piece_airlight(piece: Piece, climb: Climb, light_height: f32, nodes: u32) -> vec3<f32> {
-    var sum = at_height_node(piece, climb, light_height, gauss_legendre(nodes, 0u));
-    sum += at_height_node(piece, climb, light_height, gauss_legendre(nodes, 1u));
-    if nodes > 2u { sum += at_height_node(piece, climb, light_height, gauss_legendre(nodes, 2u)); }
-    if nodes > 3u { sum += at_height_node(piece, climb, light_height, gauss_legendre(nodes, 3u)); }
-    if nodes > 4u { sum += at_height_node(piece, climb, light_height, gauss_legendre(nodes, 4u)); }
-    if nodes > 5u { sum += at_height_node(piece, climb, light_height, gauss_legendre(nodes, 5u)); }
-    if nodes > 6u { sum += at_height_node(piece, climb, light_height, gauss_legendre(nodes, 6u)); }
-    if nodes > 7u { sum += at_height_node(piece, climb, light_height, gauss_legendre(nodes, 7u)); }
-    if nodes > 8u { sum += at_height_node(piece, climb, light_height, gauss_legendre(nodes, 8u)); }
-    if nodes > 9u { sum += at_height_node(piece, climb, light_height, gauss_legendre(nodes, 9u)); }
-    if nodes > 10u { sum += at_height_node(piece, climb, light_height, gauss_legendre(nodes, 10u)); }
-    if nodes > 11u { sum += at_height_node(piece, climb, light_height, gauss_legendre(nodes, 11u)); }
-    if nodes > 12u { sum += at_height_node(piece, climb, light_height, gauss_legendre(nodes, 12u)); }
-    if nodes > 13u { sum += at_height_node(piece, climb, light_height, gauss_legendre(nodes, 13u)); }
-    if nodes > 14u { sum += at_height_node(piece, climb, light_height, gauss_legendre(nodes, 14u)); }
-    if nodes > 15u { sum += at_height_node(piece, climb, light_height, gauss_legendre(nodes, 15u)); }
-    return piece.weight * sum;
 }
 
 // Where in which lobe of which light the next piece starts.
@@ -134,7 +122,8 @@ fn height_airlight(cursor: HeightCursor, light: Light, medium: Medium, fog: Heig
     } else {
         piece = piece_of(lobe, light, spot, beside, medium, depth_of_v, chunk.interval);
     }
-    let scattered = medium.scattering * light.intensity * height_piece_airlight(piece, climb, light_height, nodes);
+    let sum = piece.weight * sum_over_nodes(Integrand(piece, climb, light_height), nodes);
+    let scattered = medium.scattering * light.intensity * sum;
     let is_sun = light.kind == DIRECTIONAL;
     let sun = light.intensity * directional_phase(light, lobe, ray) * sunlit(light, medium, fog, ray, way, attenuated_sun);
 
@@ -156,8 +145,7 @@ fn height_airlight(cursor: HeightCursor, light: Light, medium: Medium, fog: Heig
 //   sigma_s * integral over E of e^(-sigma_t (E + density/(k s)))
 fn sunlit(light: Light, medium: Medium, fog: HeightFog, ray: Ray, way: f32, attenuated: bool) -> vec3<f32> {
     let effective = effective_way(fog, ray.origin.y, ray.direction.y, way);
-    let albedo = medium.scattering / max(medium.extinction, vec3<f32>(1e-30));
-    let whole = albedo * opacity(medium, effective);
+    let whole = albedo(medium) * opacity(medium, effective);
     // a light from below or along the ground, or without falloff, has an endless medium before it
     let sine = max(-light.direction.y, 1e-6);
     let toward = select(0.0, fog.falloff * sine, -light.direction.y > 1e-6);
@@ -170,7 +158,7 @@ fn sunlit(light: Light, medium: Medium, fog: HeightFog, ray: Ray, way: f32, atte
     let slope = 1.0 - ray.direction.y / sine;
     let growth = medium.extinction * slope * min(effective, ENDLESS);
     let series = medium.scattering * min(effective, ENDLESS) * exp(-near) * (1.0 - growth * (0.5 - growth / 6.0));
-    let steep = albedo * (exp(-near) - exp(-far)) / select(slope, 1.0, slope == 0.0);
+    let steep = albedo(medium) * (exp(-near) - exp(-far)) / select(slope, 1.0, slope == 0.0);
     // by choices between values: software Vulkan (Mesa 22.3) crashes on an early return here
     return select(whole, select(steep, series, abs(growth) < vec3<f32>(0.01)), attenuated);
 }

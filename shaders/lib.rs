@@ -25,12 +25,16 @@ pub mod surface_table;
 /// Every shared module: its name, as in `#import name`, and its text.
 pub const MODULES: &[(&str, &str)] = &[
     ("airlight", include_str!("airlight.wgsl")),
+    ("airlight_pieces", include_str!("airlight_pieces.wgsl")),
     ("airlight_table", include_str!("airlight_table.wgsl")),
     ("colour", include_str!("colour.wgsl")),
     ("cone", include_str!("cone.wgsl")),
+    ("every_light", include_str!("every_light.wgsl")),
     ("height_fog", include_str!("height_fog.wgsl")),
+    ("light_sum", include_str!("light_sum.wgsl")),
     ("lights", include_str!("lights.wgsl")),
     ("medium", include_str!("medium.wgsl")),
+    ("node_sum", include_str!("node_sum.wgsl")),
     ("occluders", include_str!("occluders.wgsl")),
     ("phase", include_str!("phase.wgsl")),
     ("quadrature", include_str!("quadrature.wgsl")),

@@ -22,6 +22,11 @@ fn opacity(medium: Medium, way: f32) -> vec3<f32> {
     return select(1.0 - exp(-depth), series, depth < vec3<f32>(0.06));
 }
 
+// sigma_s/sigma_t; 0 where there is no extinction.
+fn albedo(medium: Medium) -> vec3<f32> {
+    return medium.scattering / max(medium.extinction, vec3<f32>(1e-30));
+}
+
 // The largest exponent of a density: what is denser counts as opaque.
 const DENSITY_MAX: f32 = 80.0;
 

@@ -3,25 +3,24 @@
 //
 //   mu     cosine of the scattering angle, between the way the light comes and the way it goes on; 1 is forward
 //   w      sin^2 of half the scattering angle, (1 - mu)/2: what is given, as 1 - mu is lost in f32 near mu = 1
-//   g      mean cosine of the Henyey-Greenstein function (of Cornette and Shanks: their g, which is not the mean)
+//   g      mean cosine of the Henyey-Greenstein function
 //   k      Schlick's parameter, above 0 forward
-//   f      weight of the second lobe of the double Henyey-Greenstein function
 //   rho    width of a lobe: (1-g)/(1+g), of Schlick's sqrt((1-k)/(1+k)), of the isotropic and Rayleigh functions 1
 //   q      rho^2 (1-w) + w
 //
 // With rho, 1 + g^2 - 2 g mu = (1+g)^2 q and 1 - k mu = 2 q/(1+rho^2): nothing cancels at |g| near 1. So every function
-// of a scene file is one or two lobes  scale * q^(-3/2 or -2) * (1 + c mu^2), worked out in phase.rs:
-//   Isotropic          1/(4 pi), which is Henyey and Greenstein's with g = 0
-//   HenyeyGreenstein   (1-g^2)/(4 pi (1 + g^2 - 2 g mu)^(3/2))            (Henyey and Greenstein 1941, eq. 2)
-//   Schlick            (1-k^2)/(4 pi (1 - k mu)^2)                        (Blasi, Le Saec and Schlick 1993, eq. 3)
-//   Rayleigh           3 (1 + mu^2)/(16 pi)
-//   CornetteShanks     HenyeyGreenstein * 3 (1 + mu^2)/(2 (2 + g^2))      (Cornette and Shanks 1992, eq. 8)
-//   Droplets           HenyeyGreenstein + Draine's function               (Jendersie and d'Eon 2023), see phase.rs
+// of a scene file is one or two lobes  scale * q^(-3/2 or -2) * (1 + c mu^2); phase_functions.rs has them, and their sources.
 // No branch depends on the kind: where threads run in lockstep without jumps (software Vulkan), all branches are paid for.
 // A measured function is a table instead. Whether there is one is a constant of the pipeline, so that all others do not
 // pay for it.
 
 #import scene
+
+// w of light that goes one way and is scattered against the direction of a view ray, toward the eye: without cancellation.
+fn w_toward_eye(way: vec3<f32>, ray_direction: vec3<f32>) -> f32 {
+    let half_sum = 0.5 * (way + ray_direction);
+    return dot(half_sum, half_sum);
+}
 
 // Elements of the table: 0 where the phase function is made of lobes. Set from the scene when the pipeline is made.
 override phase_table_count: u32 = 0;

@@ -151,7 +151,7 @@ fn reach(n: f64) -> f64 {
 }
 
 /// sin γ·F(T, γ): of the airlight on an endless ray that makes the angle γ with the way to the light, with h = d·sin γ,
-/// `∫ p·e^(−T·(cos γ + sin γ·v))·2/(1 + v²) dv` from v = tan(γ/2) on, see the glossary of `airlight.wgsl`.
+/// `∫ p·e^(−T·(cos γ + sin γ·v))·2/(1 + v²) dv` from v = tan(γ/2) on, see the glossary of `airlight_pieces.wgsl`.
 pub fn glow(kind: &Phase, depth: f64, gamma: f64) -> f64 {
     glow_of(|w| phase(kind, w), depth, gamma)
 }

@@ -157,7 +157,7 @@ fn reflected(light: Light, medium: Medium, surface: Surface, direct: bool, scatt
         let lambert = convolution(surface.lambert, incident.to_light, rows, table);
         let phong = convolution(surface.phong, incident.to_light, rows, table);
         // I sigma_s/d as a part of I/d^2; without a way, E albedo as a part of E
-        let scattering = select(medium.scattering * incident.way, medium.scattering / max(medium.extinction, vec3<f32>(1e-30)), is_sun);
+        let scattering = select(medium.scattering * incident.way, albedo(medium), is_sun);
         let of_spot = convolution(lookup_of_spot(light, table), incident.to_light, rows, table);
         let all_around = select(vec3<f32>(1.0), of_spot, light.kind == SPOT);
         sum += scattering * (surface.rho / PI * lambert + surface.k_s * phong) * all_around * incident.on_axis;

@@ -81,9 +81,8 @@ fn sunlight(air: Air, light: Light) -> vec3<f32> {
 
 // E (beta_R f_R + beta_M f_HG) of one light, W/(sr m^3); 0 of a light that is not directional.
 fn source_of_sun(air: Air, light: Light, direction: vec3<f32>) -> vec3<f32> {
-    // w without cancellation: half the sum of the ways of light and ray, squared
-    let half_sum = 0.5 * (light.direction + direction);
-    let source = light.intensity * sunlight(air, light) * angular_scattering(air, dot(half_sum, half_sum));
+    let w = w_toward_eye(light.direction, direction);
+    let source = light.intensity * sunlight(air, light) * angular_scattering(air, w);
     return select(vec3<f32>(0.0), source, light.kind == DIRECTIONAL);
 }
 

@@ -14,7 +14,7 @@ var table: texture_storage_2d<r32float, write>;
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = vec2<u32>(params.size);
-    // read here: compilers do not move this out of a loop
+    // read before the loop, see shaders/every_light.wgsl
     let scattering = phase;
     let nodes = nodes_of_texel(id.xy, size, least_width(scattering));
     var sum = 0.0;

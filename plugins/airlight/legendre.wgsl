@@ -1,21 +1,11 @@
 // Airlight by the table of `airlight.h_k`, for the phase function as it is now: see shaders/airlight_table.wgsl.
 #import "lookup.wgsl"
 
+fn scattered_of_sun(receiver: Receiver, w: f32) -> f32 {
+    return dot(receiver.weights, legendre_polynomials(1.0 - 2.0 * w));
+}
+
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    let count = lights.count;
-    let scattering = phase;
-    let weights = series_weights(scattering);
-    let ray = ray_of(id.xy);
-    var sum = vec3<f32>(0.0);
-    // a list without lights holds one of intensity 0; why the test stands at the end: see shaders/airlight.wgsl
-    var i = 0u;
-    loop {
-        let light = lights.items[i];
-        let w = directional_w(light, ray);
-        sum += airlight_of(light, ray, id.xy, weights, dot(weights, legendre_polynomials(1.0 - 2.0 * w)));
-        i++;
-        if i >= count { break; }
-    }
-    store(id.xy, sum);
+    airlight_of_pixel(id.xy, series_weights(phase));
 }

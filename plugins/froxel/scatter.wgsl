@@ -9,11 +9,13 @@
 //
 // The light-side extinction is exact, which engines leave out. A point cannot stand for a froxel that a lamp is in: over a
 // ball of radius a about the lamp the mean of 1/r^2 is 3/a^2, so r is floored at a/sqrt(3), and what the froxel scatters
-// in all is right. Where shadows are asked for, a shadow map says of each point whether the light reaches it. What remains is the method's own: one value for all of a froxel, and values mixed between froxels.
+// in all is right. Where shadows are asked for, a shadow map says of each point whether the light reaches it. What remains is
+// the method's own: one value for all of a froxel, and values mixed between froxels.
 #import scene
 #import medium
 #import phase
 #import lights
+#import every_light
 #import shadow_map
 #import "grid.wgsl"
 
@@ -32,18 +34,33 @@ var<uniform> params: Params;
 var<uniform> camera: Camera;
 var<uniform> medium: Medium;
 var<uniform> phase: Phase;
-var<storage, read> lights: Lights;
 var shadow_map: texture_2d_array<f32>;
 var scattered: texture_storage_3d<rgba32float, write>;
 var<storage, read_write> grid: Grid;
 
-// S of one light without sigma_s; `least` is the least r^2, m^2.
-fn scattered_by(light: Light, position: vec3<f32>, direction: vec3<f32>, least: f32) -> vec3<f32> {
-    let incident = incident_light(light, position);
-    let half_difference = 0.5 * (incident.to_light - direction);
-    let w = dot(half_difference, half_difference);
+struct Gathered {
+    light: u32,
+    sum: vec3<f32>,             // of S without sigma_s, over points and lights
+    position: vec3<f32>,        // m
+    direction: vec3<f32>,       // of the ray through it
+    least: f32,                 // of r^2, m^2
+    tiles: Tiles,
+}
+
+fn gather(before: Gathered, light: Light) -> Gathered {
+    let hidden = shadows && is_hidden_in_map(shadow_map, before.tiles, light, before.light, before.position);
+    var after = before;
+    after.light += 1u;
+    after.sum += select(scattered_by(light, before), vec3<f32>(0.0), hidden);
+    return after;
+}
+
+// S of one light without sigma_s, at a point.
+fn scattered_by(light: Light, at: Gathered) -> vec3<f32> {
+    let incident = incident_light(light, at.position);
+    let w = w_toward_eye(-incident.to_light, at.direction);
     let r2 = incident.way * incident.way;
-    let floored = select(r2 / max(r2, least), 1.0, light.kind == DIRECTIONAL);
+    let floored = select(r2 / max(r2, at.least), 1.0, light.kind == DIRECTIONAL);
     return phase_at(phase, w) * floored * incident.irradiance * transmittance(medium, incident.way);
 }
 
@@ -63,22 +80,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let a = pow(volume * 0.238732415, 1.0 / 3.0);
     let tiles = tiles_of(lights.count, textureDimensions(shadow_map).x);
     var sum = vec3<f32>(0.0);
-    // the middles of points^3 equal parts; why the test stands at the end: see shaders/airlight.wgsl
+    // the middles of points^3 equal parts
     var i = 0u;
     loop {
         let part = vec3<u32>(i, i / points, i / (points * points)) % points;
         let offset = (vec3<f32>(part) + 0.5) / f32(points);
         let ray = ray_of_point(camera, (vec2<f32>(id.xy) + offset.xy) / column);
         let position = ray.origin + mix(start, end, offset.z) * ray.direction;
-        // a list without lights holds one of intensity 0
-        var light = 0u;
-        loop {
-            let by = lights.items[light];
-            let hidden = shadows && is_hidden_in_map(shadow_map, tiles, by, light, position);
-            sum += select(scattered_by(by, position, ray.direction, a * a / 3.0), vec3<f32>(0.0), hidden);
-            light++;
-            if light >= lights.count { break; }
-        }
+        sum = gather_lights(Gathered(0u, sum, position, ray.direction, a * a / 3.0, tiles)).sum;
         i++;
         if i >= count { break; }
     }

@@ -1,7 +1,7 @@
 // Airlight by brute force, to compare with: equal steps along the ray, the integrand at their middles, with the phase
-// functions, falloffs and floor of h of all other passes (shaders/phase.wgsl, cone.wgsl, airlight.wgsl).
+// functions, falloffs and floor of h of all other passes (shaders/phase.wgsl, cone.wgsl, airlight_pieces.wgsl).
 //
-//   x, t, h, s, r   as in shaders/airlight.wgsl
+//   x, t, h, s, r   as in shaders/airlight_pieces.wgsl
 //   w               sin^2 of half the scattering angle, (r + s)/(2 r), known to 1e-7: of lobes with g above 0.99 the peak
 //                   is off by 0.3 % and more, as 1e-7 is no longer small beside ((1-g)/(1+g))^2
 //
@@ -14,7 +14,8 @@
 #import medium
 #import phase
 #import cone
-#import airlight
+#import airlight_pieces
+#import light_sum
 #import occluders
 #import shadow_map
 #import unfinished
@@ -32,7 +33,6 @@ override maps: bool = false;
 var<uniform> camera: Camera;
 var<uniform> medium: Medium;
 var<uniform> phase: Phase;
-var<storage, read> lights: Lights;
 var depth: texture_2d<f32>;
 var shadow_map: texture_2d_array<f32>;
 var radiance: texture_storage_2d<rgba32float, write>;
@@ -112,7 +112,6 @@ fn march_spot(marched: Marched, beside: LightBesideRay, scattering: Phase, ray: 
 // The irradiance of a directional light reaches every point unattenuated.
 fn march_directional(marched: Marched, scattering: Phase, ray: Ray, way: f32) -> vec3<f32> {
     let light = marched.light;
-    let half_sum = 0.5 * (light.direction + ray.direction);
     let dx = way / f32(steps);
     let count = select(0u, steps, light.kind == DIRECTIONAL);
     var sum = vec3<f32>(0.0);
@@ -123,35 +122,35 @@ fn march_directional(marched: Marched, scattering: Phase, ray: Ray, way: f32) ->
         sum += f32(~hidden & 1u) * exp(-medium.extinction * ((f32(i) + 0.5) * dx));
     }
     stopped = stopped || i < count;
-    return medium.scattering * light.intensity * phase_at(scattering, dot(half_sum, half_sum)) * sum * dx;
+    return medium.scattering * light.intensity * phase_at(scattering, w_toward_eye(light.direction, ray.direction)) * sum * dx;
+}
+
+struct Receiver {
+    ray: Ray,
+    way: f32,                   // m
+    scattering: Phase,
+    tiles: Tiles,
+}
+
+fn received(light: Light, index: u32, receiver: Receiver) -> vec3<f32> {
+    let marched = Marched(light, index, receiver.tiles);
+    let beside = light_beside_ray(light, receiver.ray);
+    return march_point(marched, beside, receiver.scattering, receiver.ray, receiver.way)
+        + march_spot(marched, beside, receiver.scattering, receiver.ray, receiver.way)
+        + march_directional(marched, receiver.scattering, receiver.ray, receiver.way);
 }
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = textureDimensions(radiance);
-    let count = lights.count;
     let ray = ray_of_pixel(camera, id.xy, size);
     let least = max(least_extinction(medium), 1e-30);
     let way = min(textureLoad(depth, id.xy, 0).x, MARCH_DEPTH / least);
-    // read here: compilers do not move this out of a loop over points
-    let scattering = phase;
-    let tiles = tiles_of(count, textureDimensions(shadow_map).x);
-    var sum = vec3<f32>(0.0);
-    // a list without lights holds one of intensity 0; why the test stands at the end: see shaders/airlight.wgsl
-    var i = 0u;
-    loop {
-        let marched = Marched(lights.items[i], i, tiles);
-        let beside = light_beside_ray(marched.light, ray);
-        sum += march_point(marched, beside, scattering, ray, way);
-        sum += march_spot(marched, beside, scattering, ray, way);
-        sum += march_directional(marched, scattering, ray, way);
-        i++;
-        if i >= count { break; }
-    }
-    // no early return above: outside of branches software Vulkan reads the scene's data once for all threads
+    let tiles = tiles_of(lights.count, textureDimensions(shadow_map).x);
+    let sum = received_of_all(Receiver(ray, way, phase, tiles));
     if all(id.xy < size) {
         textureStore(radiance, id.xy, vec4<f32>(select(vec3<f32>(0.0), sum, medium.scattering > vec3<f32>(0.0)), 1.0));
-        if i < count || stopped || occluders_missed {
+        if lights_missed || stopped || occluders_missed {
             tell_unfinished();
         }
     }

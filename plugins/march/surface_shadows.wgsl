@@ -2,6 +2,7 @@
 #import scene
 #import ray
 #import lights
+#import every_light
 #import occluders
 #import unfinished
 
@@ -11,29 +12,32 @@ const BEFORE_SURFACE: f32 = 0.9999;
 const FARTHEST: f32 = 1e4;
 
 var<uniform> camera: Camera;
-var<storage, read> lights: Lights;
 var depth: texture_2d<f32>;
 var lit: texture_storage_2d<rgba32float, write>;
+
+struct Gathered {
+    light: u32,
+    lit: vec4<f32>,             // see lights.wgsl
+    ray: Ray,
+    x: f32,                     // m; where on the ray it is asked
+}
+
+fn gather(before: Gathered, light: Light) -> Gathered {
+    let is_lit = (hidden_points(light, before.ray, before.x, 1.0) & 1u) == 0u;
+    let lit = before.lit + select(vec4<f32>(0.0), bit_of_light(before.light), is_lit);
+    return Gathered(before.light + 1u, lit, before.ray, before.x);
+}
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = textureDimensions(lit);
-    let count = lights.count;
     let ray = ray_of_pixel(camera, id.xy, size);
     let met = textureLoad(depth, id.xy, 0).x;
     let way = select(met, FARTHEST, met > 1e30);
-    let x = BEFORE_SURFACE * way;
-    var bits = vec4<f32>(0.0);
-    // a list without lights holds one of intensity 0; why the test stands at the end: see shaders/airlight.wgsl
-    var i = 0u;
-    loop {
-        bits += select(vec4<f32>(0.0), bit_of_light(i), (hidden_points(lights.items[i], ray, x, 1.0) & 1u) == 0u);
-        i++;
-        if i >= count { break; }
-    }
+    let gathered = gather_lights(Gathered(0u, vec4<f32>(0.0), ray, BEFORE_SURFACE * way));
     if all(id.xy < size) {
-        textureStore(lit, id.xy, bits);
-        if i < count || occluders_missed {
+        textureStore(lit, id.xy, gathered.lit);
+        if lights_missed || occluders_missed {
             tell_unfinished();
         }
     }

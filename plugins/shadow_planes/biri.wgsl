@@ -14,6 +14,7 @@
 #import ray
 #import airlight
 #import lights
+#import every_light
 #import shadows
 #import unfinished
 
@@ -23,7 +24,6 @@ override stencil: bool = true;
 var<uniform> camera: Camera;
 var<uniform> medium: Medium;
 var<uniform> phase: Phase;
-var<storage, read> lights: Lights;
 var depth: texture_2d<f32>;
 var radiance: texture_storage_2d<rgba32float, write>;
 var lit: texture_storage_2d<rgba32float, write>;
@@ -107,45 +107,57 @@ fn surface(ray: ShadowRay) -> Drawn {
     return Drawn(ray.way, select(0.0, 1.0, volumes == 0), volumes, BEYOND, 0u, false);
 }
 
+struct Gathered {
+    light: u32,
+    radiance: vec3<f32>,        // W/(sr m^2)
+    lit: vec4<f32>,             // which lights reach the surface, see lights.wgsl
+    ray: Ray,
+    way: f32,
+    shadow: ShadowRay,
+    drawn: Drawn,
+    next: Cursor,               // in what is drawn
+}
+
+// Before anything of a light is drawn.
+fn begun(before: Gathered, light: u32) -> Gathered {
+    // beyond the last light no more is drawn
+    let lights_end = max(lights.count, 1u);
+    var after = before;
+    after.light = light;
+    after.shadow = shadow_ray(shadow_lights.items[min(light, lights_end - 1u)], before.ray, before.way);
+    after.drawn = surface(after.shadow);
+    after.next = Cursor(light, 0u, 0.0);
+    after.lit += select(vec4<f32>(0.0), bit_of_light(light), light < lights_end && after.drawn.stencil == 0);
+    return after;
+}
+
+fn gather(before: Gathered, light: Light) -> Gathered {
+    let part = vec2<f32>(0.0, before.drawn.x);
+    let piece = airlight_between(before.next, light, medium, phase, before.ray, part, nodes);
+    var after = before;
+    after.radiance += before.drawn.share * piece.radiance;
+    after.next = piece.next;
+    if piece.next.light > before.light {
+        after.drawn = next_drawn(before.shadow, before.drawn);
+        after.next = Cursor(before.light, 0u, 0.0);
+        if after.drawn.done {
+            after = begun(after, before.light + 1u);
+        }
+    }
+    return after;
+}
+
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = textureDimensions(radiance);
-    let count = lights.count;
-    let ray = ray_of_pixel(camera, id.xy, size);
-    let way = textureLoad(depth, id.xy, 0).x;
-    var sum = vec3<f32>(0.0);
-    var lit_bits = vec4<f32>(0.0);
-    // a list without lights holds one of intensity 0; why the test stands at the end: see shaders/airlight.wgsl
-    var light = 0u;
-    var shadow = shadow_ray(shadow_lights.items[0], ray, way);
-    var drawn = surface(shadow);
-    var cursor = Cursor(0u, 0u, 0.0);
-    lit_bits += select(vec4<f32>(0.0), bit_of_light(0u), drawn.stencil == 0);
-    loop {
-        let part = vec2<f32>(0.0, drawn.x);
-        let piece = airlight_between(cursor, lights.items[light], medium, phase, ray, part, nodes);
-        sum += drawn.share * piece.radiance;
-        cursor = piece.next;
-        if cursor.light > light {
-            drawn = next_drawn(shadow, drawn);
-            cursor = Cursor(light, 0u, 0.0);
-            if drawn.done {
-                light++;
-                cursor = Cursor(light, 0u, 0.0);
-                // beyond the last light no more is drawn
-                let next = min(light, max(count, 1u) - 1u);
-                shadow = shadow_ray(shadow_lights.items[next], ray, way);
-                drawn = surface(shadow);
-                lit_bits += select(vec4<f32>(0.0), bit_of_light(light), light < count && drawn.stencil == 0);
-            }
-        }
-        if light >= count { break; }
-    }
-    // no early return above: outside of branches software Vulkan reads the scene's data once for all threads
+    var start = Gathered();
+    start.ray = ray_of_pixel(camera, id.xy, size);
+    start.way = textureLoad(depth, id.xy, 0).x;
+    let gathered = gather_lights(begun(start, 0u));
     if all(id.xy < size) {
-        textureStore(radiance, id.xy, vec4<f32>(sum, 1.0));
-        textureStore(lit, id.xy, lit_bits);
-        if light < count || stopped {
+        textureStore(radiance, id.xy, vec4<f32>(gathered.radiance, 1.0));
+        textureStore(lit, id.xy, gathered.lit);
+        if lights_missed || stopped {
             tell_unfinished();
         }
     }

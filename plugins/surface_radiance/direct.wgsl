@@ -3,21 +3,31 @@
 #import ray
 #import medium
 #import lights
+#import light_sum
 
 var<uniform> camera: Camera;
 var<uniform> medium: Medium;
 var<uniform> height_fog: HeightFog;
-var<storage, read> lights: Lights;
 var depth: texture_2d<f32>;
 var normal: texture_2d<f32>;
 var material: texture_2d_array<f32>;
 var radiance: texture_storage_2d<rgba32float, write>;
 
-// L of one light at a surface, before the way to the eye; see direct_share of shaders/lights.wgsl.
-fn reflected(light: Light, position: vec3<f32>, normal: vec3<f32>, mirrored: vec3<f32>, rho: vec3<f32>, phong: vec4<f32>) -> vec3<f32> {
-    let incident = incident_light(light, position);
-    let through = effective_way(height_fog, position.y, incident.to_light.y, incident.way);
-    return direct_share(rho, phong.xyz, phong.w, normal, mirrored, incident.to_light) * incident.irradiance * transmittance(medium, through);
+// A point of a surface, see direct_share of shaders/lights.wgsl.
+struct Receiver {
+    position: vec3<f32>,        // m
+    normal: vec3<f32>,
+    mirrored: vec3<f32>,
+    rho: vec3<f32>,
+    phong: vec4<f32>,           // k_s, n
+}
+
+// L of one light, before the way to the eye.
+fn received(light: Light, index: u32, receiver: Receiver) -> vec3<f32> {
+    let incident = incident_light(light, receiver.position);
+    let through = effective_way(height_fog, receiver.position.y, incident.to_light.y, incident.way);
+    let share = direct_share(receiver.rho, receiver.phong.xyz, receiver.phong.w, receiver.normal, receiver.mirrored, incident.to_light);
+    return share * incident.irradiance * transmittance(medium, through);
 }
 
 @compute @workgroup_size(8, 8)
@@ -30,20 +40,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var sum = vec3<f32>(0.0);
     if way < ENDLESS {
         let ray = ray_of_pixel(camera, id.xy, size);
-        let outward = textureLoad(normal, id.xy, 0).xyz;
-        let toward_eye = select(outward, -outward, dot(outward, ray.direction) > 0.0);
-        let mirrored = reflect(ray.direction, toward_eye);
-        let position = ray.origin + way * ray.direction;
-        let rho = textureLoad(material, id.xy, 0, 0).xyz;
-        let phong = textureLoad(material, id.xy, 1, 0);
-        // a list without lights holds one of intensity 0; why the test stands at the end: see shaders/airlight.wgsl
-        var i = 0u;
-        loop {
-            sum += reflected(lights.items[i], position, toward_eye, mirrored, rho, phong);
-            i++;
-            if i >= lights.count { break; }
-        }
-        sum *= transmittance(medium, effective_way(height_fog, ray.origin.y, ray.direction.y, way));
+        let toward_eye = normal_toward_eye(textureLoad(normal, id.xy, 0).xyz, ray.direction);
+        let receiver = Receiver(ray.origin + way * ray.direction, toward_eye, reflect(ray.direction, toward_eye),
+            textureLoad(material, id.xy, 0, 0).xyz, textureLoad(material, id.xy, 1, 0));
+        sum = received_of_all(receiver) * transmittance(medium, effective_way(height_fog, ray.origin.y, ray.direction.y, way));
     }
     textureStore(radiance, id.xy, vec4<f32>(sum, 1.0));
 }

@@ -3,6 +3,7 @@
 #import ray
 #import medium
 #import lights
+#import light_sum
 #import reflection
 
 override direct: bool = true;
@@ -10,7 +11,6 @@ override scattered: bool = true;
 
 var<uniform> camera: Camera;
 var<uniform> medium: Medium;
-var<storage, read> lights: Lights;
 var depth: texture_2d<f32>;
 var normal: texture_2d<f32>;
 var material: texture_2d_array<f32>;
@@ -18,29 +18,27 @@ var table: texture_2d_array<f32>;
 var lit: texture_2d<f32>;
 var radiance: texture_storage_2d<rgba32float, write>;
 
+struct Receiver {
+    surface: Surface,
+    lit: vec4<f32>,             // which lights reach it, see lights.wgsl
+}
+
+fn received(light: Light, index: u32, receiver: Receiver) -> vec3<f32> {
+    return reflected(light, medium, receiver.surface, direct && has_light(receiver.lit, index), scattered, table);
+}
+
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = textureDimensions(radiance);
-    let count = lights.count;
     let way = textureLoad(depth, id.xy, 0).x;
     let ray = ray_of_pixel(camera, id.xy, size);
-    let outward = textureLoad(normal, id.xy, 0).xyz;
-    let toward_eye = select(outward, -outward, dot(outward, ray.direction) > 0.0);
+    let toward_eye = normal_toward_eye(textureLoad(normal, id.xy, 0).xyz, ray.direction);
     let lambert = textureLoad(material, id.xy, 0, 0);
     let phong = textureLoad(material, id.xy, 1, 0);
     let surface = Surface(ray.origin + min(way, ENDLESS) * ray.direction, lambert.xyz, phong.xyz, phong.w,
         lookup_of(toward_eye, 0u, 1.0, table),
         lookup_of(reflect(ray.direction, toward_eye), u32(lambert.w), phong.w, table));
-    let lit_bits = textureLoad(lit, id.xy, 0);
-    var sum = vec3<f32>(0.0);
-    // a list without lights holds one of intensity 0; why the test stands at the end: see shaders/airlight.wgsl
-    var i = 0u;
-    loop {
-        sum += reflected(lights.items[i], medium, surface, direct && has_light(lit_bits, i), scattered, table);
-        i++;
-        if i >= count { break; }
-    }
-    // no early return above: see plugins/march/airlight.wgsl
+    let sum = received_of_all(Receiver(surface, textureLoad(lit, id.xy, 0)));
     if all(id.xy < size) {
         let found = select(vec3<f32>(0.0), sum * transmittance(medium, way), way < ENDLESS);
         textureStore(radiance, id.xy, vec4<f32>(found, 1.0));

@@ -3,7 +3,7 @@
 //   gamma     angle between a direction and the way to the light
 //   a         tan(gamma/2)
 //   T         optical depth of the way to the light, see shaders/reflection.wgsl
-//   v         along a direction, see shaders/airlight.wgsl: its paths to the light and back are T (cos gamma + v sin gamma)
+//   v         along a direction, see shaders/airlight_pieces.wgsl: its paths to the light and back are T (cos gamma + v sin gamma)
 //   F         radiance in that direction is I sigma_s/d F(T, gamma)
 //   P_l       Legendre polynomials
 //   F_l       2 pi * integral of F P_l dcos(gamma): F = sum of (2l+1)/(4 pi) F_l P_l
@@ -16,8 +16,6 @@
 #import scene
 #import phase
 #import reflection
-
-const PI2: f32 = 6.28318530717959;
 
 // Of gamma: a texel of `glow` each.
 const NODES: u32 = 256u;
@@ -95,7 +93,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     // dgamma = sin(gamma) d(ln a); the first node stands for all that is nearer to the light
     let first = select(0.0, 2.0 * a * exp(-0.5 * NODE_STEP), id.x == 0u);
-    nodes[id.x] = vec2<f32>(cosine, PI2 * value * (NODE_STEP * sine + first));
+    nodes[id.x] = vec2<f32>(cosine, 2.0 * PI * value * (NODE_STEP * sine + first));
     textureStore(glow, id.xy, vec4<f32>(value));
     workgroupBarrier();
     if id.x < textureDimensions(coefficients).x {

@@ -8,6 +8,7 @@ use tyndall_document::{Diagnostic, Place, Source, Span};
 use crate::codes;
 use crate::library::Library;
 use crate::map::{Map, SEPARATOR};
+use crate::require::unmet;
 use crate::scan::{Import, Scan, Target, scan};
 
 /// Imports may nest as deep as this.
@@ -44,13 +45,21 @@ impl Assembly {
 /// `diagnostic`) in front and does not mind the order of declarations.
 ///
 /// # Errors
-/// All mistakes found, where they would mislead naga: missing modules, cycles, unclosed brackets.
+/// All mistakes found, where they would mislead naga: missing modules, cycles, requirements that are not met, unclosed brackets.
 pub fn assemble(root: &Arc<Source>, library: &Library) -> Result<Assembly, Vec<Diagnostic>> {
-    let mut collector =
-        Collector { library, files: Vec::new(), done: BTreeMap::new(), chain: Vec::new(), broken: false };
+    let mut collector = Collector {
+        library,
+        files: Vec::new(),
+        imports: Vec::new(),
+        done: BTreeMap::new(),
+        chain: Vec::new(),
+        broken: false,
+    };
     collector.visit(root, Origin::of(root, library));
-    let broken = collector.broken;
+    let unmet = if collector.broken { Vec::new() } else { unmet(&collector.files, &collector.imports) };
+    let broken = collector.broken || !unmet.is_empty();
     let mut assembly = join(collector.files);
+    assembly.problems.extend(unmet);
     for (_, scan) in &mut assembly.scans {
         assembly.problems.append(&mut scan.problems);
     }
@@ -62,14 +71,14 @@ pub fn assemble(root: &Arc<Source>, library: &Library) -> Result<Assembly, Vec<D
     if broken { Err(assembly.problems) } else { Ok(assembly) }
 }
 
-/// Blanks the imports and joins the files.
+/// Blanks the directives and joins the files.
 fn join(files: Vec<(Arc<Source>, Scan)>) -> Assembly {
     let (mut text, mut map) = (String::new(), Map::default());
     for (source, scan) in &files {
         let start = text.len();
         map.push(start as u32, Arc::clone(source));
         let mut written = 0;
-        for Import { span, .. } in &scan.imports {
+        for span in scan.directives() {
             text.push_str(&source.text()[written..span.start as usize]);
             text.extend(std::iter::repeat_n(' ', (span.end - span.start) as usize));
             written = span.end as usize;
@@ -113,6 +122,8 @@ impl Origin {
 struct Collector<'a> {
     library: &'a Library,
     files: Vec<(Arc<Source>, Scan)>,
+    /// The first import of each of them; none of the root.
+    imports: Vec<Option<Place>>,
     /// Files that were begun, and whether they are finished.
     done: BTreeMap<Origin, bool>,
     /// From the root to the file being visited: which file, and the import that it is followed by.
@@ -129,6 +140,7 @@ impl Collector<'_> {
         }
         let imports = scan.imports.clone();
         self.files.push((Arc::clone(source), scan));
+        self.imports.push(self.chain.last().and_then(|(_, import)| import.clone()));
         let index = self.files.len() - 1;
         self.done.insert(origin.clone(), false);
         self.chain.push((origin.clone(), None));

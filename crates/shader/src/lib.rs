@@ -10,6 +10,7 @@
 //! ```wgsl
 //! #import scene                                   // a shared module: shaders/scene.wgsl
 //! #import "march.wgsl"                            // a file of the same plugin's folder
+//! #require fn from_light(light: Light) -> vec3<f32>   // in a module: declared by the shader that imports it
 //! struct Params { exposure: f32 }
 //! var<uniform> params: Params;                    // parameters by member name
 //! override nodes: u32 = 12;                       // a parameter too: part of the pipeline
@@ -38,6 +39,7 @@ mod naming;
 mod params;
 mod ports;
 mod reflect;
+mod require;
 mod scan;
 mod types;
 mod usage;

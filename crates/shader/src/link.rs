@@ -11,7 +11,8 @@
 //!
 //! So files are joined whole, once each, import lines blanked to their own length: an offset in the text is an offset
 //! in a file plus a constant. There is one flat namespace, and no macros; naga reports a name that two files declare,
-//! at both places.
+//! at both places. So a module may call what the shader that imports it declares: that is how loops are shared, whose
+//! bodies differ. It says so in a `#require` line, and an import that does not get it is a mistake at the import.
 //!
 //! # What becomes of a module
 //! It is validated whole, so that a mistake in a function that nobody calls is found too. Then naga's `compact` drops
@@ -32,6 +33,7 @@ use crate::map::Map;
 use crate::meaning::fingerprint;
 use crate::params::{Param, params};
 use crate::reflect::{EntryPoint, Resource, entry_points, is_resource, resources};
+use crate::require::blame;
 use crate::{codes, errors, usage};
 
 /// What a shader may ask of a device: what every one has that is up to WebGPU.
@@ -104,7 +106,7 @@ pub fn link(root: &Arc<Source>, library: &Library) -> Result<Linked, Vec<Diagnos
         Ok((module, info, unused)) if problems.is_empty() => finish(assembly, module, info, unused),
         Ok(_) => Err(problems),
         Err(problem) => {
-            problems.push(*problem);
+            problems.push(blame(&assembly, *problem));
             Err(problems)
         }
     }

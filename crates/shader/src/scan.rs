@@ -1,4 +1,4 @@
-//! What must be known of a WGSL text before naga reads it: its `#import` lines, the names that it declares, attributes
+//! What must be known of a WGSL text before naga reads it: its `#import` and `#require` lines, the names that it declares, attributes
 //! that the linker reserves for itself, and whether its comments and brackets close.
 //!
 //! Brackets are checked per file, because files are joined to one text: a `{` that is left open would be reported in
@@ -15,6 +15,7 @@ use tyndall_document::{Diagnostic, Source, Span};
 
 use crate::codes;
 use brackets::Brackets;
+use directive::Directive;
 use lexer::{Lexer, Token};
 
 /// What an `#import` line asks for.
@@ -36,10 +37,21 @@ pub struct Import {
     pub name_span: Span,
 }
 
+/// One `#require` line: a declaration that a module uses and leaves to the shader that imports it.
+#[derive(Debug, Clone)]
+pub struct Requirement {
+    pub name: String,
+    /// The head of the declaration: `fn name(…) -> …` or `struct Name`.
+    pub declaration: String,
+    /// The whole directive, from its `#`: it is blanked before naga reads the text.
+    pub span: Span,
+}
+
 /// What a scan of one file found.
 #[derive(Debug, Default)]
 pub struct Scan {
     pub imports: Vec<Import>,
+    pub requirements: Vec<Requirement>,
     /// Names declared at module scope, with their places.
     pub declared: Vec<(String, Span)>,
     /// Stage attributes (`@compute`, `@vertex`, `@fragment`).
@@ -51,6 +63,14 @@ pub struct Scan {
 }
 
 impl Scan {
+    /// What naga does not read, in file order.
+    pub fn directives(&self) -> Vec<Span> {
+        let imports = self.imports.iter().map(|import| import.span);
+        let mut spans: Vec<Span> = imports.chain(self.requirements.iter().map(|required| required.span)).collect();
+        spans.sort_by_key(|span| span.start);
+        spans
+    }
+
     /// The place of a name that the file declares at module scope.
     pub fn place_of(&self, name: &str) -> Option<Span> {
         self.declared.iter().find(|(declared, _)| declared == name).map(|(_, span)| *span)
@@ -72,7 +92,8 @@ pub fn scan(source: &Arc<Source>) -> Scan {
                 found.broken = true;
             }
             Token::Hash => match directive::read(source, &mut lexer, span) {
-                Ok(import) => found.imports.push(import),
+                Ok(Directive::Import(import)) => found.imports.push(import),
+                Ok(Directive::Require(requirement)) => found.requirements.push(requirement),
                 Err(problem) => {
                     found.problems.push(*problem);
                     found.broken = true;

@@ -1,53 +1,109 @@
-//! `#import name` and `#import "file.wgsl"`: the only directive there is.
+//! The directives: `#import name`, `#import "file.wgsl"` and `#require fn name(…) -> …`, each on a line of its own.
 
 use std::sync::Arc;
 
 use tyndall_document::{Diagnostic, Source, Span};
 
 use super::lexer::{Lexer, is_blank, is_line_break};
-use super::{Import, Target};
+use super::{Import, Requirement, Target};
 use crate::codes;
 
+/// What a line that begins with `#` says.
+pub enum Directive {
+    Import(Import),
+    Require(Requirement),
+}
+
 /// Reads what stands after a `#`, whose span is given, to the end of the directive.
-pub fn read(source: &Arc<Source>, lexer: &mut Lexer<'_>, hash: Span) -> Result<Import, Box<Diagnostic>> {
+pub fn read(source: &Arc<Source>, lexer: &mut Lexer<'_>, hash: Span) -> Result<Directive, Box<Diagnostic>> {
     let rest = lexer.rest();
-    let line = &rest[..rest.find(is_line_break).unwrap_or(rest.len())];
-    let wrong = |lexer: &mut Lexer<'_>, end: usize, message: String| {
-        let span = Span { start: hash.start, end: hash.end + end as u32 };
-        lexer.skip(line.len());
-        Box::new(Diagnostic::error(codes::IMPORT, source.place(span), message))
+    let text = &rest[..rest.find(is_line_break).unwrap_or(rest.len())];
+    let keyword = text.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(text.len());
+    let line = Line { source, hash, text, keyword };
+    let read = match &text[..keyword] {
+        "import" | "require" if !lexer.line_before(hash.start).chars().all(is_blank) => {
+            let message = format!("`#{}` must stand on a line of its own", &text[..keyword]);
+            Err(Box::new(line.wrong(line.stop(), message)))
+        }
+        "import" => line.import(),
+        "require" => line.require(),
+        word => {
+            let problem = line.wrong(keyword, format!("`#{word}` is not known"));
+            Err(Box::new(
+                problem.suggest("the directives are `#import name`, `#import \"file.wgsl\"` and `#require fn …`"),
+            ))
+        }
     };
-    let stop = line.trim_end().len();
-    let word_end = line.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(line.len());
-    let word = &line[..word_end];
-    if word != "import" {
-        return Err(Box::new(
-            wrong(lexer, word_end, format!("`#{word}` is not known"))
-                .suggest("the only directive is `#import name` or `#import \"file.wgsl\"`"),
-        ));
+    lexer.skip(read.as_ref().map_or(text.len(), |(_, end)| *end));
+    read.map(|(directive, _)| directive)
+}
+
+/// A directive, and where in its line it ends.
+type Read = Result<(Directive, usize), Box<Diagnostic>>;
+
+/// The line of a directive behind its `#`; offsets are in that text.
+struct Line<'t> {
+    source: &'t Arc<Source>,
+    hash: Span,
+    text: &'t str,
+    /// Where `import` or `require` ends.
+    keyword: usize,
+}
+
+impl Line<'_> {
+    fn import(&self) -> Read {
+        let start = self.argument();
+        let Some((target, length)) = target(&self.text[start..]) else {
+            let problem = self.wrong(self.stop(), "`#import` needs a module's name or a quoted file".to_owned());
+            return Err(Box::new(problem.suggest("write `#import name` or `#import \"file.wgsl\"`")));
+        };
+        let end = start + length;
+        let after = self.text[end..].trim_start();
+        if !(after.is_empty() || after.starts_with("//") || after.starts_with("/*")) {
+            let message = format!("`{}` follows the import", after.trim_end());
+            return Err(Box::new(self.wrong(self.stop(), message)));
+        }
+        let import =
+            Import { target, span: self.span(end), name_span: Span { start: self.at(start), end: self.at(end) } };
+        Ok((Directive::Import(import), end))
     }
-    if !lexer.line_before(hash.start).chars().all(is_blank) {
-        return Err(wrong(lexer, stop, "`#import` must stand on a line of its own".to_owned()));
+
+    fn require(&self) -> Read {
+        let start = self.argument();
+        let comment = self.text.find("//").into_iter().chain(self.text.find("/*")).min();
+        let declaration = self.text[start..comment.unwrap_or(self.text.len()).max(start)].trim_end();
+        let Some(name) = declared_name(declaration) else {
+            let problem = self.wrong(self.stop(), "`#require` needs the head of a declaration".to_owned());
+            return Err(Box::new(problem.suggest("write `#require fn name(…) -> …` or `#require struct Name`")));
+        };
+        let end = start + declaration.len();
+        let requirement =
+            Requirement { name: name.to_owned(), declaration: declaration.to_owned(), span: self.span(end) };
+        Ok((Directive::Require(requirement), end))
     }
-    let name_start = word_end + (line[word_end..].len() - line[word_end..].trim_start().len());
-    let Some((target, length)) = target(&line[name_start..]) else {
-        return Err(Box::new(
-            wrong(lexer, stop.max(word_end), "`#import` needs a module's name or a quoted file".to_owned())
-                .suggest("write `#import name` or `#import \"file.wgsl\"`"),
-        ));
-    };
-    let name_end = name_start + length;
-    let after = line[name_end..].trim_start();
-    if !(after.is_empty() || after.starts_with("//") || after.starts_with("/*")) {
-        return Err(wrong(lexer, stop, format!("`{}` follows the import", after.trim_end())));
+
+    /// Where the word behind the keyword begins.
+    fn argument(&self) -> usize {
+        self.text.len() - self.text[self.keyword..].trim_start().len()
     }
-    lexer.skip(name_end);
-    let at = |offset: usize| hash.end + offset as u32;
-    Ok(Import {
-        target,
-        span: Span { start: hash.start, end: at(name_end) },
-        name_span: Span { start: at(name_start), end: at(name_end) },
-    })
+
+    /// The end of what is written.
+    fn stop(&self) -> usize {
+        self.text.trim_end().len()
+    }
+
+    fn at(&self, offset: usize) -> u32 {
+        self.hash.end + offset as u32
+    }
+
+    /// From the `#` to here.
+    fn span(&self, end: usize) -> Span {
+        Span { start: self.hash.start, end: self.at(end) }
+    }
+
+    fn wrong(&self, end: usize, message: String) -> Diagnostic {
+        Diagnostic::error(codes::IMPORT, self.source.place(self.span(end)), message)
+    }
 }
 
 /// The name or the quoted file that a text begins with, and how many bytes it takes.
@@ -58,4 +114,17 @@ fn target(text: &str) -> Option<(Target, usize)> {
     }
     let end = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len());
     (end > 0).then(|| (Target::Module(text[..end].to_owned()), end))
+}
+
+/// The name in `fn name(…) -> …` or `struct Name`.
+fn declared_name(declaration: &str) -> Option<&str> {
+    let (keyword, rest) = declaration.split_once(is_blank)?;
+    let rest = rest.trim_start();
+    let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
+    let complete = match keyword {
+        "fn" => rest[end..].starts_with('('),
+        "struct" => end == rest.len(),
+        _ => false,
+    };
+    (end > 0 && complete).then(|| &rest[..end])
 }

@@ -27,6 +27,20 @@ fn malformed_directives_are_reported() {
     assert_eq!(messages("#import \"\"\n"), ["`#import` needs a module's name or a quoted file"]);
     assert_eq!(messages("#import a b\n"), ["`b` follows the import"]);
     assert_eq!(messages("const a = 1; #import a\n"), ["`#import` must stand on a line of its own"]);
+    for text in ["#require\n", "#require f\n", "#require fn f\n", "#require struct A { x: f32 }\n", "#require fn (\n"] {
+        assert_eq!(messages(text), ["`#require` needs the head of a declaration"], "{text}");
+    }
+}
+
+#[test]
+fn requirements_are_found() {
+    let text = "#require struct A // so\n#import a\n #require fn f(a: A) -> f32\n// #require fn g()\n";
+    let found = scanned(text);
+    let declarations: Vec<_> = found.requirements.iter().map(|r| (r.name.as_str(), r.declaration.as_str())).collect();
+    assert_eq!(declarations, [("A", "struct A"), ("f", "fn f(a: A) -> f32")]);
+    let spans: Vec<_> = found.directives().iter().map(|span| &text[span.start as usize..span.end as usize]).collect();
+    assert_eq!(spans, ["#require struct A", "#import a", "#require fn f(a: A) -> f32"]);
+    assert!(found.problems.is_empty() && found.declared.is_empty());
 }
 
 #[test]
