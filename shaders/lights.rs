@@ -35,7 +35,7 @@ pub fn incident(light: &Light, position: DVec3) -> Incident {
 }
 
 /// Bits of each of the four channels of a texture that says which lights reach a point.
-const BITS_OF_CHANNEL: usize = 24;
+const BITS_OF_CHANNEL: usize = 32;
 
 /// Lights that there are bits for.
 pub const LIT_LIGHTS: usize = 4 * BITS_OF_CHANNEL;
@@ -53,8 +53,8 @@ mod tests {
     fn bits_are_those_of_the_shader() {
         let stated = format!("const BITS_OF_CHANNEL: u32 = {BITS_OF_CHANNEL}u;");
         assert!(include_str!("lights.wgsl").contains(&stated), "lights.wgsl does not say: {stated}");
-        assert_eq!((lit_bit(0), lit_bit(25), lit_bit(LIT_LIGHTS)), (Some((0, 1)), Some((1, 2)), None));
-        assert_eq!(lit_bit(LIT_LIGHTS - 1), Some((3, 1 << 23)));
+        assert_eq!((lit_bit(0), lit_bit(33), lit_bit(LIT_LIGHTS)), (Some((0, 1)), Some((1, 2)), None));
+        assert_eq!(lit_bit(LIT_LIGHTS - 1), Some((3, 1 << 31)));
     }
 
     #[test]

@@ -8,19 +8,19 @@
 #import scene
 #import cone
 
-// Which lights reach a point, as textures hold it: 24 bits in each of four channels, which single precision holds exactly.
-const BITS_OF_CHANNEL: u32 = 24u;
+// Which lights reach a point: a bit for each, 32 in each of four channels.
+const BITS_OF_CHANNEL: u32 = 32u;
 
-// What a light adds to them; nothing beyond the 96 that there is room for.
-fn bit_of_light(light: u32) -> vec4<f32> {
+// The bit of a light; none beyond the 128 that there is room for.
+fn bit_of_light(light: u32) -> vec4<u32> {
     let channel = vec4<u32>(0u, 1u, 2u, 3u) == vec4<u32>(light / BITS_OF_CHANNEL);
-    return select(vec4<f32>(0.0), vec4<f32>(f32(1u << (light % BITS_OF_CHANNEL))), channel);
+    return select(vec4<u32>(0u), vec4<u32>(1u << (light % BITS_OF_CHANNEL)), channel);
 }
 
 // Whether a light is among them; beyond those that there is room for all are.
-fn has_light(bits: vec4<f32>, light: u32) -> bool {
-    let bit = vec4<u32>(bit_of_light(light));
-    return all((vec4<u32>(bits) & bit) == bit);
+fn has_light(bits: vec4<u32>, light: u32) -> bool {
+    let bit = bit_of_light(light);
+    return all((bits & bit) == bit);
 }
 
 struct IncidentLight {

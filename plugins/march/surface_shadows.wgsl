@@ -13,18 +13,18 @@ const FARTHEST: f32 = 1e4;
 
 var<uniform> camera: Camera;
 var depth: texture_2d<f32>;
-var lit: texture_storage_2d<rgba32float, write>;
+var lit: texture_storage_2d<rgba32uint, write>;
 
 struct Gathered {
     light: u32,
-    lit: vec4<f32>,             // see lights.wgsl
+    lit: vec4<u32>,             // see lights.wgsl
     ray: Ray,
     x: f32,                     // m; where on the ray it is asked
 }
 
 fn gather(before: Gathered, light: Light) -> Gathered {
     let is_lit = (hidden_points(light, before.ray, before.x, 1.0) & 1u) == 0u;
-    let lit = before.lit + select(vec4<f32>(0.0), bit_of_light(before.light), is_lit);
+    let lit = before.lit | select(vec4<u32>(0u), bit_of_light(before.light), is_lit);
     return Gathered(before.light + 1u, lit, before.ray, before.x);
 }
 
@@ -34,7 +34,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let ray = ray_of_pixel(camera, id.xy, size);
     let met = textureLoad(depth, id.xy, 0).x;
     let way = select(met, FARTHEST, met > 1e30);
-    let gathered = gather_lights(Gathered(0u, vec4<f32>(0.0), ray, BEFORE_SURFACE * way));
+    let gathered = gather_lights(Gathered(0u, vec4<u32>(0u), ray, BEFORE_SURFACE * way));
     if all(id.xy < size) {
         textureStore(lit, id.xy, gathered.lit);
         if lights_missed || occluders_missed {

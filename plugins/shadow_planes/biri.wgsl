@@ -26,7 +26,7 @@ var<uniform> medium: Medium;
 var<uniform> phase: Phase;
 var depth: texture_2d<f32>;
 var radiance: texture_storage_2d<rgba32float, write>;
-var lit: texture_storage_2d<rgba32float, write>;
+var lit: texture_storage_2d<rgba32uint, write>;
 
 // Whether a loop over planes ended before it was done.
 var<private> stopped: bool = false;
@@ -110,7 +110,7 @@ fn surface(ray: ShadowRay) -> Drawn {
 struct Gathered {
     light: u32,
     radiance: vec3<f32>,        // W/(sr m^2)
-    lit: vec4<f32>,             // which lights reach the surface, see lights.wgsl
+    lit: vec4<u32>,             // which lights reach the surface, see lights.wgsl
     ray: Ray,
     way: f32,
     shadow: ShadowRay,
@@ -127,7 +127,7 @@ fn begun(before: Gathered, light: u32) -> Gathered {
     after.shadow = shadow_ray(shadow_lights.items[min(light, lights_end - 1u)], before.ray, before.way);
     after.drawn = surface(after.shadow);
     after.next = Cursor(light, 0u, 0.0);
-    after.lit += select(vec4<f32>(0.0), bit_of_light(light), light < lights_end && after.drawn.stencil == 0);
+    after.lit |= select(vec4<u32>(0u), bit_of_light(light), light < lights_end && after.drawn.stencil == 0);
     return after;
 }
 

@@ -16,12 +16,12 @@ var<uniform> medium: Medium;
 var<uniform> phase: Phase;
 var depth: texture_2d<f32>;
 var radiance: texture_storage_2d<rgba32float, write>;
-var lit: texture_storage_2d<rgba32float, write>;
+var lit: texture_storage_2d<rgba32uint, write>;
 
 struct Gathered {
     light: u32,
     radiance: vec3<f32>,        // W/(sr m^2)
-    lit: vec4<f32>,             // which lights reach the surface, see lights.wgsl
+    lit: vec4<u32>,             // which lights reach the surface, see lights.wgsl
     ray: Ray,
     way: f32,
     shadow: ShadowRay,
@@ -49,7 +49,7 @@ fn behind_part(before: Gathered) -> Gathered {
     let stage = before.bound.stage;
     let at_end = before.found.walk.x >= before.shadow.way;
     if at_end && before.found.walk.depth <= 0 && stage == LIT {
-        after.lit += bit_of_light(before.light);
+        after.lit |= bit_of_light(before.light);
     }
     after.radiance = select(before.radiance, min(before.radiance, before.bound.sum), stage == WHOLE);
     after.bound = next_stage(before.bound, after.radiance, at_end, nodes);

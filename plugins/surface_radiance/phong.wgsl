@@ -15,12 +15,12 @@ var depth: texture_2d<f32>;
 var normal: texture_2d<f32>;
 var material: texture_2d_array<f32>;
 var table: texture_2d_array<f32>;
-var lit: texture_2d<f32>;
+var lit: texture_2d<u32>;
 var radiance: texture_storage_2d<rgba32float, write>;
 
 struct Receiver {
     surface: Surface,
-    lit: vec4<f32>,             // which lights reach it, see lights.wgsl
+    lit: vec4<u32>,             // which lights reach it, see lights.wgsl
 }
 
 fn received(light: Light, index: u32, receiver: Receiver) -> vec3<f32> {

@@ -274,68 +274,62 @@ impl fmt::Display for Class {
     }
 }
 
-/// Format of a texel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[allow(missing_docs, reason = "the names are WGSL's")]
-pub enum Format {
-    R32Float,
-    Rg32Float,
-    Rgba32Float,
-    R16Float,
-    Rg16Float,
-    Rgba16Float,
-    Rgba8Unorm,
-    R32Uint,
-    Rg32Uint,
-    Rgba32Uint,
-    Depth32Float,
+/// Makes [`Format`] of a row for each: name, WGSL's name, channels, how a channel is stored.
+macro_rules! formats {
+    ($($name:ident $wgsl:literal $channels:literal $scalar:ident;)*) => {
+        /// Format of a texel.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[allow(missing_docs, reason = "the names are WGSL's")]
+        pub enum Format {
+            $($name,)*
+        }
+
+        impl Format {
+            /// All of them.
+            pub const ALL: &[Format] = &[$(Format::$name,)*];
+
+            /// Channels of a texel.
+            pub const fn channels(self) -> u32 {
+                match self {
+                    $(Format::$name => $channels,)*
+                }
+            }
+
+            /// How a channel is stored.
+            pub const fn scalar(self) -> Scalar {
+                match self {
+                    $(Format::$name => Scalar::$scalar,)*
+                }
+            }
+
+            /// WGSL's name of it, as in `texture_storage_2d<NAME, write>`.
+            pub const fn wgsl(self) -> &'static str {
+                match self {
+                    $(Format::$name => $wgsl,)*
+                }
+            }
+        }
+    };
+}
+
+formats! {
+    R32Float "r32float" 1 F32;
+    Rg32Float "rg32float" 2 F32;
+    Rgba32Float "rgba32float" 4 F32;
+    R16Float "r16float" 1 F16;
+    Rg16Float "rg16float" 2 F16;
+    Rgba16Float "rgba16float" 4 F16;
+    Rgba8Unorm "rgba8unorm" 4 Unorm8;
+    R32Uint "r32uint" 1 U32;
+    Rg32Uint "rg32uint" 2 U32;
+    Rgba32Uint "rgba32uint" 4 U32;
+    Depth32Float "depth32float" 1 F32;
 }
 
 impl Format {
     /// Bytes of a texel.
     pub const fn bytes(self) -> u64 {
-        match self {
-            Format::R16Float => 2,
-            Format::R32Float | Format::Rg16Float | Format::Rgba8Unorm | Format::R32Uint | Format::Depth32Float => 4,
-            Format::Rg32Float | Format::Rgba16Float | Format::Rg32Uint => 8,
-            Format::Rgba32Float | Format::Rgba32Uint => 16,
-        }
-    }
-
-    /// Channels of a texel.
-    pub const fn channels(self) -> u32 {
-        match self {
-            Format::R16Float | Format::R32Float | Format::R32Uint | Format::Depth32Float => 1,
-            Format::Rg16Float | Format::Rg32Float | Format::Rg32Uint => 2,
-            _ => 4,
-        }
-    }
-
-    /// How a channel is stored.
-    pub const fn scalar(self) -> Scalar {
-        match self {
-            Format::R32Float | Format::Rg32Float | Format::Rgba32Float | Format::Depth32Float => Scalar::F32,
-            Format::R16Float | Format::Rg16Float | Format::Rgba16Float => Scalar::F16,
-            Format::Rgba8Unorm => Scalar::Unorm8,
-            Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint => Scalar::U32,
-        }
-    }
-
-    /// WGSL's name of it, as in `texture_storage_2d<NAME, write>`.
-    pub const fn wgsl(self) -> &'static str {
-        match self {
-            Format::R32Float => "r32float",
-            Format::Rg32Float => "rg32float",
-            Format::Rgba32Float => "rgba32float",
-            Format::R16Float => "r16float",
-            Format::Rg16Float => "rg16float",
-            Format::Rgba16Float => "rgba16float",
-            Format::Rgba8Unorm => "rgba8unorm",
-            Format::R32Uint => "r32uint",
-            Format::Rg32Uint => "rg32uint",
-            Format::Rgba32Uint => "rgba32uint",
-            Format::Depth32Float => "depth32float",
-        }
+        self.channels() as u64 * self.scalar().bytes() as u64
     }
 }
 

@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use tyndall_document::{BAD_SIZE, Decoder, Diagnostic, Diagnostics, Node, Source, Value};
 use tyndall_graph::descriptor::{
-    Class, Disabled, Extent, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role, SizeRule,
+    Class, Disabled, Extent, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role,
+    SizeRule,
 };
-use tyndall_shader::{Linked, Param, ParamKind, ReflectedPort, derive_port};
+use tyndall_shader::{Linked, Param, ParamKind, ReflectedPort, ResourceKind, SampleClass, derive_port};
 
 use crate::codes::{BAD_PARAM, BAD_PORT};
 use crate::manifest::{Entry, ManifestPass};
@@ -95,7 +96,11 @@ fn port(decoder: &mut Decoder<'_>, entry: &Entry, linked: &Linked) -> Option<Por
         },
         _ => Role::Output { disabled: disabled.unwrap_or(Disabled::Constant([0.0, 0.0, 0.0, 1.0])) },
     };
-    Some(PortDescriptor { name: entry.name.clone(), about, unit, role, kind: kind(reflected, class), size, unordered })
+    let mut kind = kind(reflected, class);
+    if let (Role::Optional(_), ResourceKind::Texture { class: SampleClass::Uint, .. }) = (&role, &resource.kind) {
+        store_as(&mut kind, Format::Rgba32Uint);
+    }
+    Some(PortDescriptor { name: entry.name.clone(), about, unit, role, kind, size, unordered })
 }
 
 fn kind(reflected: ReflectedPort, stated: Option<Class>) -> PortKind {
@@ -104,6 +109,13 @@ fn kind(reflected: ReflectedPort, stated: Option<Class>) -> PortKind {
             PortKind::Texture { dimension, class, format, filtered }
         }
         (kind, _) => kind,
+    }
+}
+
+/// What stands for an optional input that nothing feeds must be of a format that its variable can read.
+fn store_as(kind: &mut PortKind, stored: Format) {
+    if let PortKind::Texture { format, .. } = kind {
+        *format = Some(stored);
     }
 }
 

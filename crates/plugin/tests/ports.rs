@@ -3,7 +3,7 @@
 mod support;
 
 use support::{content, executor, gpu, planned, registry, run_all, with_plugin};
-use tyndall_gpu::FrameOptions;
+use tyndall_gpu::{FrameOptions, Numbers};
 use tyndall_graph::Roots;
 use tyndall_plugin::Registry;
 
@@ -127,6 +127,24 @@ fn constants_of_every_format_can_be_looked_at() {
     assert_eq!(content(&executor, "triangle").floats(), [0.0; 2]);
     let material = content(&executor, "material");
     assert_eq!((material.layers(), material.floats()), (2, [0.0, 0.0, 0.0, 1.0].repeat(4)));
+}
+
+#[test]
+fn an_absent_optional_input_of_whole_numbers_has_all_bits_that_it_declares() {
+    let registry = one_pass(
+        r#"ports: {
+            "a": (about: "May be absent", optional: (4294967295.0, 16777217.0, 0.0, 7.0)),
+            "b": (about: "What it was", size: Fixed(1, 1)),
+        }"#,
+        "var a: texture_2d<u32>;
+         var b: texture_storage_2d<rgba32uint, write>;
+         @compute @workgroup_size(1) fn main() { textureStore(b, vec2(0), textureLoad(a, vec2(0), 0)); }",
+    );
+    let text = r#"(version: 1, size: (2, 2), passes: { "p": (use: "t.p") }, outputs: { "b": "p.b" })"#;
+    let mut executor = executor(&gpu(), &registry, planned(&registry, text, |_, _| ()));
+    run_all(&mut executor);
+    // a constant is of single precision, which has 2^24 beside 2^24 + 1
+    assert_eq!(content(&executor, "b").numbers(), Numbers::Whole(vec![u32::MAX, 1 << 24, 0, 7]));
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! What a linked module binds, and its entry points.
 
+use naga::common::wgsl::ToWgsl as _;
 use naga::valid::{GlobalUse, ModuleInfo, ShaderStages};
 use naga::{
     AddressSpace, Binding, GlobalVariable, Handle, ImageClass, ImageDimension, Module, ScalarKind, StorageAccess,
@@ -132,19 +133,7 @@ pub struct Target {
 
 /// A storage format of WGSL as a format of a port; `None` where a port cannot have it.
 pub fn storage_format(format: StorageFormat) -> Option<Format> {
-    Some(match format {
-        StorageFormat::R32Float => Format::R32Float,
-        StorageFormat::Rg32Float => Format::Rg32Float,
-        StorageFormat::Rgba32Float => Format::Rgba32Float,
-        StorageFormat::R16Float => Format::R16Float,
-        StorageFormat::Rg16Float => Format::Rg16Float,
-        StorageFormat::Rgba16Float => Format::Rgba16Float,
-        StorageFormat::Rgba8Unorm => Format::Rgba8Unorm,
-        StorageFormat::R32Uint => Format::R32Uint,
-        StorageFormat::Rg32Uint => Format::Rg32Uint,
-        StorageFormat::Rgba32Uint => Format::Rgba32Uint,
-        _ => return None,
-    })
+    Format::ALL.iter().copied().find(|known| known.wgsl() == format.to_wgsl())
 }
 
 /// A global variable that must be bound.

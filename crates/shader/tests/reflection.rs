@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use tyndall_document::{Place, Source, render_text};
-use tyndall_graph::descriptor::{Class, Dimension, Format, PortKind};
+use tyndall_graph::descriptor::{Class, Dimension, Format, PortKind, Scalar};
 use tyndall_shader::*;
 
 mod descriptor;
@@ -58,6 +58,19 @@ fn what_is_not_used_is_not_bound() {
         ("main", [4, 2, 1], &[0, 1][..])
     );
     assert!(linked.resource("b").unwrap().written && !linked.resource("b").unwrap().read);
+}
+
+#[test]
+fn every_format_but_that_of_depth_is_stored_under_its_name() {
+    for format in Format::ALL.iter().filter(|format| **format != Format::Depth32Float) {
+        let texel = if format.scalar() == Scalar::U32 { "vec4<u32>(1u)" } else { "vec4<f32>(1.0)" };
+        let linked = linked(&format!(
+            "var o: texture_storage_2d<{format}, write>;\n\
+             @compute @workgroup_size(1) fn main() {{ textureStore(o, vec2(0), {texel}); }}"
+        ));
+        let kind = &linked.resource("o").unwrap().kind;
+        assert!(matches!(kind, ResourceKind::StorageTexture { format: found, .. } if found == format), "{format}");
+    }
 }
 
 #[test]

@@ -11,14 +11,14 @@ use tyndall_shaders::shadows::{is_lit, lit_intervals};
 pub(crate) fn exact(input: &ReferenceInput<'_>) -> Outputs {
     let scene = input.scene()?;
     let pixels = input.pixels("radiance", |Pixel { ray, distance, .. }| {
-        let (mut sum, mut bits) = (DVec3::ZERO, [0.0_f32; 4]);
+        let (mut sum, mut bits) = (DVec3::ZERO, [0_u32; 4]);
         for (index, light) in scene.lights.iter().enumerate() {
             let lit = lit_intervals(light, &scene.casters, ray, *distance);
             sum += lit.into_iter().map(|[near, far]| airlight(light, &scene.medium, ray, near, far)).sum::<DVec3>();
             if let Some((channel, bit)) = lit_bit(index)
                 && is_lit(light, &scene.casters, ray, *distance)
             {
-                bits[channel] += bit as f32;
+                bits[channel] |= bit;
             }
         }
         (sum, bits)

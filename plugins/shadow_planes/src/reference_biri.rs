@@ -37,14 +37,14 @@ pub(crate) fn biri(input: &ReferenceInput<'_>) -> Outputs {
     let eye = scene.camera.position;
     let planes: Vec<Vec<Plane>> = scene.lights.iter().map(|light| silhouette(light, &scene.casters, eye)).collect();
     let pixels = input.pixels("radiance", |Pixel { ray, distance, .. }| {
-        let (mut sum, mut bits) = (DVec3::ZERO, [0.0_f32; 4]);
+        let (mut sum, mut bits) = (DVec3::ZERO, [0_u32; 4]);
         for (index, (light, planes)) in scene.lights.iter().zip(&planes).enumerate() {
             let crossed = crossed(light, planes, ray, *distance);
             let volumes = volumes_of_surface(&crossed);
             if volumes == 0
                 && let Some((channel, bit)) = lit_bit(index)
             {
-                bits[channel] += bit as f32;
+                bits[channel] |= bit;
             }
             let before = |x: f64| airlight(light, &scene.medium, ray, 0.0, x);
             sum += drawn(&crossed, volumes, stencil, *distance, before);

@@ -169,18 +169,18 @@ fn lights_without_a_bit_are_told() {
     let told = |count: u32| {
         let mut lights = String::new();
         for index in 0..count {
-            let x = f64::from(index) * 0.02 - 1.0;
+            let x = f64::from(index) * 0.015 - 1.0;
             write!(lights, "Point(position: ({x}, 3.0, 0.0), intensity: (0.1, 0.1, 0.1)),").unwrap();
         }
         let setting = format!("scene.lights=[{lights}]");
         let run = ["render", graph.to_str().unwrap(), "--size", "8x6", "--set", &setting, "--set", "scattered=false"];
         desk.ends(0, &run).err
     };
-    assert!(!told(96).contains("[limit]"), "{}", told(96));
+    assert!(!told(128).contains("[limit]"), "{}", told(128));
     assert!(
-        told(97).contains("warning[limit]: pass `air`: there are more lights than `lit` has bits for"),
+        told(129).contains("warning[limit]: pass `air`: there are more lights than `lit` has bits for"),
         "{}",
-        told(97)
+        told(129)
     );
 }
 

@@ -6,7 +6,7 @@ use super::connections::Connections;
 use super::mistakes::Mistakes;
 use super::scope::Scope;
 use crate::codes;
-use crate::descriptor::{Class, Format, PortDescriptor, PortKind};
+use crate::descriptor::{Class, Format, PortDescriptor, PortKind, Scalar};
 use crate::graph::Pass;
 use crate::handle::{Handle, Table};
 use crate::signature::RoleKind;
@@ -153,7 +153,7 @@ fn kind_mistake(demanded: &PortDescriptor, fed: &PortDescriptor, flow: Flow) -> 
             if let Some(format) = format.filter(|format| *format != f) {
                 return Some((codes::WRONG_FORMAT, format!("`{name}` is read as {format}, and this is {f}")));
             }
-            let unfiltered = *filtered && matches!(f, Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint);
+            let unfiltered = *filtered && f.scalar() == Scalar::U32;
             unfiltered.then(|| (codes::WRONG_FORMAT, format!("`{name}` is read through a filter, and this is {f}")))
         }
         (PortKind::Buffer { element, stride }, Shape::Buffer { stride: s }) => {

@@ -2,7 +2,7 @@
 
 use naga::StorageAccess;
 use tyndall_document::Diagnostic;
-use tyndall_graph::descriptor::{Class, Dimension, Format, PortDescriptor, PortKind, Role};
+use tyndall_graph::descriptor::{Class, Dimension, Format, PortDescriptor, PortKind, Role, Scalar};
 
 use super::Pass;
 use crate::codes;
@@ -90,9 +90,10 @@ fn declaration(port: &PortDescriptor) -> String {
 
 /// What reading a format gives.
 fn scalar(format: Format) -> &'static str {
-    match format {
-        Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint => "u32",
-        _ => "f32",
+    match format.scalar() {
+        Scalar::U32 => "u32",
+        Scalar::I32 => "i32",
+        Scalar::F32 | Scalar::F16 | Scalar::Unorm8 => "f32",
     }
 }
 
@@ -170,7 +171,7 @@ fn dimensions(name: &str, want: Dimension, dim: naga::ImageDimension, arrayed: b
 /// Whether what is read fits the format, or the class where every format of a class is read.
 fn sampling(name: &str, class: Class, format: Option<Format>, sampled: SampleClass) -> Option<String> {
     let allowed: &[SampleClass] = match (format, class) {
-        (Some(Format::R32Uint | Format::Rg32Uint | Format::Rgba32Uint), _) => &[SampleClass::Uint],
+        (Some(format), _) if format.scalar() == Scalar::U32 => &[SampleClass::Uint],
         (Some(Format::Depth32Float), _) | (None, Class::RasterDepth) => &[SampleClass::Depth, SampleClass::Float],
         (None, Class::Data) => &[SampleClass::Float, SampleClass::Uint],
         _ => &[SampleClass::Float],

@@ -5,13 +5,14 @@ use std::collections::{BTreeSet, HashSet};
 use naga::valid::FunctionInfo;
 use naga::{
     BinaryOperator, Block, Expression, Function, Handle, Literal, MathFunction, Module, ScalarKind, Statement,
-    StorageFormat, TypeInner, UnaryOperator,
+    TypeInner, UnaryOperator,
 };
 
 use super::wording::Wording;
 use super::{Edit, Location, Mutation, MutationKind, Target};
 use crate::link::Linked;
 use crate::naming::UNFINISHED;
+use crate::reflect::storage_format;
 
 /// All mutations of the functions that entry points reach.
 pub(super) fn mutations(linked: &Linked) -> Vec<Mutation> {
@@ -129,11 +130,9 @@ impl Sites<'_> {
     /// Channels that a storage texture keeps.
     fn channels(&self, image: Handle<Expression>) -> Option<usize> {
         match self.info[image].ty.inner_with(&self.linked.module.types) {
-            TypeInner::Image { class: naga::ImageClass::Storage { format, .. }, .. } => match format {
-                StorageFormat::R32Float | StorageFormat::R16Float | StorageFormat::R32Uint => Some(1),
-                StorageFormat::Rg32Float | StorageFormat::Rg16Float | StorageFormat::Rg32Uint => Some(2),
-                _ => Some(4),
-            },
+            TypeInner::Image { class: naga::ImageClass::Storage { format, .. }, .. } => {
+                storage_format(*format).map(|format| format.channels() as usize)
+            }
             _ => None,
         }
     }
