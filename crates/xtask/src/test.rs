@@ -21,21 +21,14 @@ const ASSETS: &str = "TYNDALL_ASSETS";
 pub fn run(workspace: &Workspace) -> Result<(), Failure> {
     check_assets()?;
     let mut report = Report::default();
+    let mut tally = Tally::default();
+    // What takes seconds to a minute and often fails stands first.
     report.tool("format", "fmt", "rustfmt", workspace, |cargo| cargo.args(["fmt", "--all", "--check"]));
     report.step("repository", || repository(workspace));
-    let build = || succeed(workspace.cargo().args(["build", "--release", "--package", "tyndall"]));
-    let set_up = report
-        .timed("compiler", compiler::ensure)
-        .and_then(|()| report.timed("build", build))
-        .and_then(|()| report.timed("driver", || driver::ensure(workspace)))
-        .and_then(|()| report.timed("browser", browser::ensure));
-    let mut tally = Tally::default();
-    if let Err(failure) = set_up {
+    if let Err(failure) = report.timed("compiler", compiler::ensure) {
         report.print(tally);
         return Err(failure);
     }
-    report.step("tests", || tests(workspace, &mut tally));
-    report.step("robustness", || robustness(workspace));
     report.tool("clippy", "clippy", "clippy", workspace, |cargo| {
         cargo.args(["clippy", "--release", "--workspace", "--all-targets", "--", "-D", "warnings"])
     });
@@ -43,6 +36,16 @@ pub fn run(workspace: &Workspace) -> Result<(), Failure> {
         let mut doc = workspace.cargo();
         succeed(doc.args(["doc", "--release", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))
     });
+    let set_up = report
+        .timed("build", || build(workspace))
+        .and_then(|()| report.timed("driver", || driver::ensure(workspace)))
+        .and_then(|()| report.timed("browser", browser::ensure));
+    if let Err(failure) = set_up {
+        report.print(tally);
+        return Err(failure);
+    }
+    report.step("tests", || tests(workspace, &mut tally));
+    report.step("robustness", || robustness(workspace));
     match report.print(tally) {
         0 => Ok(()),
         _ => Err(Failure::check("not everything passed")),
@@ -71,6 +74,12 @@ fn repository(workspace: &Workspace) -> Result<(), Failure> {
         Found::NotSearched => println!("not run: the search for machine paths (it needs git and a checkout)"),
     }
     if mistakes.is_empty() { Ok(()) } else { Err(Failure::check(mistakes.join("\n"))) }
+}
+
+/// Builds every test, and with them the program. Not the program by itself: tests turn on features of other crates, and
+/// those would be built a second time.
+fn build(workspace: &Workspace) -> Result<(), Failure> {
+    succeed(workspace.cargo().args(["test", "--release", "--workspace", "--no-run"]))
 }
 
 /// The image tests once more, small: in another order, from poisoned memory, with and without sharing, twice. What passes
