@@ -1,6 +1,6 @@
 //! Every `.test.ron` of the repository as a test of its own, by its name: for `cargo test` and nextest.
 //!
-//! Within one process the tests share a session, and so results that are the same.
+//! Within one process the tests share results that are the same.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use libtest_mimic::{Arguments, Failed, Trial};
 use tyndall_plugin::SearchPath;
-use tyndall_testing::{Found, Options, Session, Told, discover};
+use tyndall_testing::{Found, Options, Sessions, Told, discover};
 
 fn main() -> ExitCode {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -18,10 +18,12 @@ fn main() -> ExitCode {
     std::env::set_current_dir(&root).unwrap();
     let Found { tests, orphans } = discover(&[PathBuf::from(".")]).unwrap();
     assert!(!tests.is_empty(), "the repository has no image test");
-    let shared = Arc::new(Mutex::new(None));
+    // As the program looks for plugins where it is started.
+    let search = vec![SearchPath { path: PathBuf::from("plugins"), required: false }];
+    let shared = Arc::new((Sessions::new(tyndall::shipped(), search), Mutex::new(Told::default())));
     let trial = |path: PathBuf| {
         let shared = shared.clone();
-        Trial::test(name(&path), move || run(&shared, &path))
+        Trial::test(name(&path), move || run(&shared.0, &shared.1, &path))
     };
     let orphaned = |path: PathBuf| {
         let message = format!("{} holds goldens of no test", path.display());
@@ -36,14 +38,10 @@ fn name(path: &Path) -> String {
     name.strip_suffix(".test.ron").unwrap_or(&name).to_owned()
 }
 
-fn run(shared: &Mutex<Option<(Session, Told)>>, path: &Path) -> Result<(), Failed> {
-    let mut session = shared.lock().unwrap_or_else(PoisonError::into_inner);
-    if session.is_none() {
-        // As the program looks for plugins where it is started.
-        let search = vec![SearchPath { path: PathBuf::from("plugins"), required: false }];
-        *session = Some((Session::new(tyndall::shipped(), search, None)?, Told::default()));
+fn run(sessions: &Sessions, told: &Mutex<Told>, path: &Path) -> Result<(), Failed> {
+    let outcome = sessions.with(|session| session.run(path, &Options::default()))?;
+    if outcome.passed() {
+        return Ok(());
     }
-    let Some((session, told)) = session.as_mut() else { return Err("there is no session".into()) };
-    let outcome = session.run(path, &Options::default());
-    if outcome.passed() { Ok(()) } else { Err(Failed::from(told.text(&outcome))) }
+    Err(Failed::from(told.lock().unwrap_or_else(PoisonError::into_inner).text(&outcome)))
 }

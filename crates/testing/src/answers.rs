@@ -1,63 +1,176 @@
 //! What references on the CPU have said, so that none is asked the same thing twice.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-use tyndall_plugin::{Outputs, Reference, ReferenceInput};
+use tyndall_plugin::{Numbers, Reference, ReferenceInput};
+use tyndall_shaders::scene::{Scene, Surfaces};
 
-/// What references on the CPU have said, by what they were asked.
-#[derive(Default)]
+/// What a reference has said, or why it could not.
+type Answer = Result<Arc<BTreeMap<&'static str, Numbers>>, String>;
+
+/// Asks references on the CPU for one session, and counts the time that it takes.
 pub(crate) struct Answers {
-    known: Mutex<HashMap<u64, Arc<Outputs>>>,
+    known: Arc<Mutex<Known>>,
     took: Mutex<Duration>,
 }
 
+/// What references have said, by what they were asked: each answer is worked out once, by the session that asks first, while
+/// others may ask something else.
+#[derive(Default)]
+pub(crate) struct Known {
+    answers: HashMap<u64, Arc<OnceLock<Answer>>>,
+    scenes: Distinct<Scene>,
+    surfaces: Distinct<Surfaces>,
+}
+
 impl Answers {
+    /// Shares what is known with other sessions.
+    pub fn sharing(known: &Arc<Mutex<Known>>) -> Self {
+        Self { known: known.clone(), took: Mutex::default() }
+    }
+
     /// What the reference of a pass says of these inputs.
-    pub fn of(&self, pass: &str, reference: Reference, input: &ReferenceInput<'_>) -> Arc<Outputs> {
-        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        known.entry(question(pass, input)).or_insert_with(|| Arc::new(reference(input))).clone()
+    pub fn of(&self, pass: &str, reference: Reference, input: &ReferenceInput<'_>) -> Answer {
+        let answer = locked(&self.known).answer(pass, input);
+        answer.get_or_init(|| reference(input).map(Arc::new)).clone()
     }
 
     /// Does what belongs to asking a reference, and counts the time that it takes.
     pub fn timed<T>(&self, ask: impl FnOnce() -> T) -> T {
         let start = Instant::now();
         let answer = ask();
-        *self.took.lock().unwrap_or_else(PoisonError::into_inner) += start.elapsed();
+        *locked(&self.took) += start.elapsed();
         answer
     }
 
     /// The time that asking took so far.
     pub fn took(&self) -> Duration {
-        *self.took.lock().unwrap_or_else(PoisonError::into_inner)
+        *locked(&self.took)
     }
 }
 
-fn question(pass: &str, input: &ReferenceInput<'_>) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    pass.hash(&mut hasher);
-    for (name, data) in &input.inputs {
-        (name, data.resource, data.scalar, &data.bytes).hash(&mut hasher);
+pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Known {
+    /// The answer to a question, which nobody may have worked out yet.
+    fn answer(&mut self, pass: &str, input: &ReferenceInput<'_>) -> Arc<OnceLock<Answer>> {
+        let question = self.question(pass, input);
+        self.answers.entry(question).or_default().clone()
     }
-    for (name, resource) in &input.resources {
-        (name, resource).hash(&mut hasher);
-    }
-    for (name, value) in &input.params {
-        (name, value.to_string()).hash(&mut hasher);
-    }
-    format!("{:?}", input.scene).hash(&mut hasher);
-    if let Some(surfaces) = input.surfaces {
-        for triangle in &surfaces.triangles {
-            triangle.material.hash(&mut hasher);
-            for corner in &triangle.corners {
-                let [position, normal] =
-                    [corner.position, corner.normal].map(|vector| vector.to_array().map(f64::to_bits));
-                (position, normal, corner.uv.to_array().map(f64::to_bits)).hash(&mut hasher);
-            }
+
+    /// A number for all that a reference is asked: the same for equal questions alone.
+    fn question(&mut self, pass: &str, input: &ReferenceInput<'_>) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        (pass, &input.resources).hash(&mut hasher);
+        for (name, data) in &input.inputs {
+            (name, data.resource, data.scalar, &data.bytes).hash(&mut hasher);
         }
-        format!("{:?}", (&surfaces.materials, &surfaces.textures)).hash(&mut hasher);
+        for (name, value) in &input.params {
+            (name, value.to_string()).hash(&mut hasher);
+        }
+        input.scene.map(|scene| self.scenes.number_of(scene)).hash(&mut hasher);
+        input.surfaces.map(|surfaces| self.surfaces.number_of(surfaces)).hash(&mut hasher);
+        hasher.finish()
     }
-    hasher.finish()
+}
+
+/// Values that differ from one another, each with a number.
+struct Distinct<T>(Vec<T>);
+
+impl<T> Default for Distinct<T> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<T: Clone + PartialEq> Distinct<T> {
+    /// The number of this value, and of any that equals it.
+    fn number_of(&mut self, value: &T) -> usize {
+        self.0.iter().position(|known| known == value).unwrap_or_else(|| {
+            self.0.push(value.clone());
+            self.0.len() - 1
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use glam::DVec3;
+    use tyndall_plugin::Outputs;
+    use tyndall_shaders::phase::{PhaseTable, phase};
+    use tyndall_shaders::scene::{Camera, HeightFog, Medium, Phase, Scene};
+
+    use super::*;
+
+    fn scene(phase: Phase) -> Scene {
+        let camera = Camera { position: DVec3::ZERO, right: DVec3::X, up: DVec3::Y, forward: DVec3::NEG_Z };
+        Scene {
+            camera,
+            medium: Medium { extinction: DVec3::ONE, albedo: DVec3::ONE, phase },
+            height_fog: HeightFog::NONE,
+            ambient: DVec3::ZERO,
+            background: DVec3::ZERO,
+            lights: Vec::new(),
+            casters: Vec::new(),
+            shininesses: Vec::new(),
+            cosine_lobes: Vec::new(),
+        }
+    }
+
+    fn table(forward: f64) -> Phase {
+        Phase::Measured(PhaseTable::new(&[(0.0, forward), (90.0, 1.0), (180.0, 1.0)]).expect("it is a phase function"))
+    }
+
+    fn input(scene: Option<&Scene>) -> ReferenceInput<'_> {
+        let (inputs, resources, params) = Default::default();
+        ReferenceInput { inputs, resources, params, scene, surfaces: None }
+    }
+
+    static ASKED: AtomicUsize = AtomicUsize::new(0);
+
+    /// The phase function straight ahead.
+    fn forward(input: &ReferenceInput<'_>) -> Outputs {
+        ASKED.fetch_add(1, Ordering::Relaxed);
+        Ok(BTreeMap::from([("p", vec![phase(&input.scene()?.medium.phase, 0.0) as f32].into())]))
+    }
+
+    #[test]
+    fn measured_phase_functions_of_equal_length_have_answers_of_their_own() {
+        let answers = Answers::sharing(&Arc::default());
+        let of = |forward_peak: f64| {
+            let scene = scene(table(forward_peak));
+            answers.of("pass", forward, &input(Some(&scene))).expect("it has a scene")["p"].exact()[0]
+        };
+        assert_ne!(of(2.0), of(50.0));
+        assert_eq!((of(2.0), ASKED.load(Ordering::Relaxed)), (of(2.0), 2), "each is asked once");
+    }
+
+    /// Whether another reference runs at the same time.
+    fn meets_another(_: &ReferenceInput<'_>) -> Outputs {
+        static RUNNING: AtomicUsize = AtomicUsize::new(0);
+        RUNNING.fetch_add(1, Ordering::SeqCst);
+        let start = Instant::now();
+        while RUNNING.load(Ordering::SeqCst) < 2 {
+            if start.elapsed() > Duration::from_secs(20) {
+                return Err("alone".to_owned());
+            }
+            std::thread::yield_now();
+        }
+        Ok(BTreeMap::new())
+    }
+
+    #[test]
+    fn references_of_two_threads_run_side_by_side() {
+        let answers = Answers::sharing(&Arc::default());
+        let ask = |pass: &str| answers.of(pass, meets_another, &input(None));
+        let both = std::thread::scope(|scope| ["a", "b"].map(|pass| scope.spawn(move || ask(pass))).map(|a| a.join()));
+        assert!(both.iter().all(|answer| answer.as_ref().is_ok_and(|answer| answer.is_ok())));
+    }
 }

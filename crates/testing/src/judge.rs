@@ -184,8 +184,7 @@ impl Computing<'_> {
             scene: scene.as_ref(),
             surfaces: surfaces.as_ref(),
         };
-        let answer = self.answers.of(&descriptor.name, reference, &input);
-        let outputs = answer.as_ref().as_ref().map_err(String::clone)?;
+        let outputs = self.answers.of(&descriptor.name, reference, &input)?;
         let port = &self.loaded.graph.port(port).name;
         let data = outputs.get(port.as_str()).ok_or_else(|| format!("the reference says nothing of `{port}`"))?.exact();
         if data.len() != actual.image.data.len() {

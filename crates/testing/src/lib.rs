@@ -30,6 +30,7 @@ mod blame;
 mod bless;
 pub mod codes;
 mod discover;
+mod draw;
 pub mod file;
 mod flip;
 pub mod golden;
@@ -46,6 +47,8 @@ mod report;
 mod robust;
 mod run;
 mod session;
+mod sessions;
+mod shared;
 pub mod summary;
 mod told;
 mod untapped;
@@ -55,6 +58,7 @@ use std::path::Path;
 pub use adapter::AdapterClass;
 pub use codes::CODES;
 pub use discover::{Found, discover};
+pub use draw::Drawn;
 pub use file::TestFile;
 pub use metric::{Compared, Judgement, Metric};
 pub use options::{Options, Robustness};
@@ -64,6 +68,8 @@ pub use outcome::{
 pub use picture::Picture;
 pub use report::Report;
 pub use session::{Plugins, Rendered, Saved, Session, Variation};
+pub use sessions::Sessions;
+pub use shared::Shared;
 pub use told::Told;
 
 /// Runs the test in a file with these plugins: for a `#[test]` of a plugin's crate.

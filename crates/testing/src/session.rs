@@ -16,6 +16,7 @@ use tyndall_scene::Encoded;
 use crate::answers::Answers;
 use crate::picture::Picture;
 use crate::provenance::{Origins, origins};
+use crate::shared::Shared;
 use crate::untapped::written;
 
 /// Makes the plugins of a registry.
@@ -28,18 +29,16 @@ pub type Plugins = Vec<fn() -> Plugin>;
 pub struct Session {
     plugins: Plugins,
     search: Vec<SearchPath>,
-    gpu: Arc<Gpu>,
+    pub(crate) gpu: Arc<Gpu>,
     /// By the folders that were searched; where one cannot be had, every mistake.
     registries: HashMap<Vec<PathBuf>, Result<Arc<Registry>, Diagnostics>>,
-    cache: PipelineCache,
-    results: HashMap<ResultKey, Arc<PortData>>,
-    held: usize,
+    pub(crate) cache: PipelineCache,
+    shared: Arc<Shared>,
     /// What a pass took when it ran for the first time.
     costs: HashMap<MadeFrom, Duration>,
     /// Pictures that a driver has left undone.
     pub(crate) unfinished: Diagnostics,
-    /// What references on the CPU have said, to this session and to those forked from it.
-    pub(crate) answers: Arc<Answers>,
+    pub(crate) answers: Answers,
     /// Of everything that is rendered, where somebody asks for it.
     pub(crate) digest: Option<Digest>,
     /// What sharing has saved.
@@ -47,10 +46,7 @@ pub struct Session {
 }
 
 /// What a port was made from, and which port of the pass it is.
-type ResultKey = (MadeFrom, Handle<PortDescriptor>);
-
-/// Results that are held at most, bytes: 1 GiB. Beyond it all are let go, and sharing begins anew.
-const MOST_HELD: usize = 1 << 30;
+pub(crate) type ResultKey = (MadeFrom, Handle<PortDescriptor>);
 
 /// How much sharing results between tests has saved, and what took time.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -129,6 +125,20 @@ impl Session {
     /// # Errors
     /// Where no adapter answers.
     pub fn new(plugins: Plugins, search: Vec<SearchPath>, adapter: Option<&str>) -> Result<Self, Error> {
+        Self::sharing(&Arc::default(), plugins, search, adapter)
+    }
+
+    /// The same beside other sessions of these plugins, on a device of its own: what one has rendered, or has asked a
+    /// reference, is known to all.
+    ///
+    /// # Errors
+    /// Where no adapter answers.
+    pub fn sharing(
+        shared: &Arc<Shared>,
+        plugins: Plugins,
+        search: Vec<SearchPath>,
+        adapter: Option<&str>,
+    ) -> Result<Self, Error> {
         let gpu = Gpu::open(adapter)?;
         Ok(Self {
             plugins,
@@ -136,11 +146,10 @@ impl Session {
             gpu,
             registries: HashMap::new(),
             cache: PipelineCache::default(),
-            results: HashMap::new(),
-            held: 0,
+            shared: shared.clone(),
             costs: HashMap::new(),
             unfinished: Diagnostics::default(),
-            answers: Arc::default(),
+            answers: Answers::sharing(&shared.references),
             digest: None,
             saved: Saved::default(),
         })
@@ -156,11 +165,10 @@ impl Session {
             gpu: self.gpu.clone(),
             registries: self.registries.clone(),
             cache: self.cache.clone(),
-            results: self.results.clone(),
-            held: 0,
+            shared: Arc::new(self.shared.fork()),
             costs: HashMap::new(),
             unfinished: Diagnostics::default(),
-            answers: self.answers.clone(),
+            answers: Answers::sharing(&self.shared.references),
             digest: None,
             saved: Saved::default(),
         }
@@ -294,8 +302,8 @@ impl Session {
             let Some(planned) = plan.planned(*port) else { continue };
             let key = key(plan, &prints, planned);
             rendered.made_from.insert(*port, made_from(plan, &prints, planned));
-            match key.and_then(|key| self.results.get(&key)) {
-                Some(data) => drop(rendered.ports.insert(*port, data.clone())),
+            match key.and_then(|key| self.shared.result(&key)) {
+                Some(data) => drop(rendered.ports.insert(*port, data)),
                 None => missing.push(*port),
             }
         }
@@ -317,7 +325,7 @@ impl Session {
             let Some(planned) = executor.plan().planned(port) else { continue };
             let data = Arc::new(executor.read(planned)?);
             if let Some(key) = key(executor.plan(), &rest_prints, planned) {
-                self.keep(key, &data);
+                self.shared.keep(key, &data);
             }
             rendered.ports.insert(port, data);
         }
@@ -344,21 +352,12 @@ impl Session {
     /// Gives every result that is known from before, where a device takes it.
     fn give_known(&self, executor: &mut Executor, prints: &Origins) -> Result<(), Error> {
         for port in executor.plan().ports.handles() {
-            let known = key(executor.plan(), prints, port).and_then(|key| self.results.get(&key));
+            let known = key(executor.plan(), prints, port).and_then(|key| self.shared.result(&key));
             if let Some(data) = known.filter(|_| can_be_given(executor.plan().resource(port))) {
                 executor.give(port, &data.bytes)?;
             }
         }
         Ok(())
-    }
-
-    fn keep(&mut self, key: ResultKey, data: &Arc<PortData>) {
-        if self.held + data.bytes.len() > MOST_HELD {
-            self.results.clear();
-            self.held = 0;
-        }
-        self.held += data.bytes.len();
-        self.results.insert(key, data.clone());
     }
 
     /// GPU time of every pass that these ports need by itself, in microseconds and in the order of `plan`; `None` where it

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use tyndall_document::render_text;
-use tyndall_testing::{Options, Outcome, Problem, Report, Robustness, Saved, Session, Told, discover, summary};
+use tyndall_testing::{Options, Outcome, Problem, Report, Robustness, Saved, Session, Shared, Told, discover, summary};
 
 use crate::App;
 use crate::cli::{Arguments, Test};
@@ -119,7 +119,8 @@ impl Run {
     }
 }
 
-/// Runs tests in as many threads as asked for; those of one graph in one thread, since they share results.
+/// Runs tests in as many threads as asked for, each with a session; those of one graph in one thread, one after another, so
+/// that the second finds what the first has rendered.
 fn run_all(
     app: &App,
     arguments: &Arguments,
@@ -131,13 +132,14 @@ fn run_all(
     let next = AtomicUsize::new(0);
     let done = Mutex::new((Run::default(), Ok(())));
     let search = plugins::search_paths(arguments, &[]);
+    let shared = Arc::<Shared>::default();
     let work = || {
         let mut session = None;
         while let Some(group) = groups.get(next.fetch_add(1, Ordering::Relaxed)) {
             for path in group {
                 let plugins = app.plugins.clone();
                 let outcome = match session
-                    .get_or_insert_with(|| Session::new(plugins, search.clone(), verb.adapter.as_deref()))
+                    .get_or_insert_with(|| Session::sharing(&shared, plugins, search.clone(), verb.adapter.as_deref()))
                 {
                     Ok(session) => session.run(path, options),
                     Err(error) => Outcome {
