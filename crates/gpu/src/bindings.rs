@@ -292,7 +292,7 @@ pub(crate) fn each_number(value: &ParamValue, descriptor: &ParamDescriptor, mut 
         ParamValue::Float(number) => give(*number),
         ParamValue::Vector(numbers) => numbers.iter().for_each(|number| give(*number)),
         ParamValue::Choice(word) => {
-            give(descriptor.choices.iter().position(|choice| choice == word).unwrap_or_default() as f64);
+            give(descriptor.accepts.choices().iter().position(|choice| choice == word).unwrap_or_default() as f64);
         }
         ParamValue::File(_) => {}
     }

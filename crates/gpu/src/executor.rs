@@ -126,7 +126,7 @@ impl Executor {
     ///
     /// # Errors
     /// [`GpuError::Pass`] where there is no such parameter, where it is used when the pass is made ready (a part of the
-    /// pipeline, a file), or where the value is not of its type. Ranges are not checked.
+    /// pipeline, a file), or where it does not accept the value.
     pub fn set_param(&mut self, pass: &str, param: &str, value: ParamValue) -> Result<(), GpuError> {
         self.parameters.set(&self.plan, (pass, param), value)
     }

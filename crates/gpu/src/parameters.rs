@@ -1,6 +1,6 @@
 //! The values of a plan's parameters, from frame to frame.
 
-use tyndall_graph::descriptor::{ParamDescriptor, ParamValue};
+use tyndall_graph::descriptor::{ParamDescriptor, ParamType, ParamValue};
 use tyndall_graph::{Handle, ParamSetting, Plan, PlannedPass, Table, Values};
 
 use crate::error::GpuError;
@@ -50,28 +50,17 @@ impl Parameters {
         let at = plan.passes.handles().find(|position| plan.pass_name(*position) == pass);
         let at = at.ok_or_else(|| refuse("belongs to no pass of the plan"))?;
         let descriptor = plan.descriptor(at);
-        let index = descriptor.param_named(param).ok_or_else(|| refuse("is no parameter of it"))?;
+        let index = descriptor.param_named(param).ok_or_else(|| refuse("is not a parameter of it"))?;
         let declared = &descriptor.params[index];
         if declared.fixed {
             return Err(refuse("is a part of the pipeline: plan anew to change it"));
         }
-        if matches!(declared.default, ParamValue::File(_)) {
+        if declared.accepts == ParamType::File {
             return Err(refuse("names a file that was read already: plan anew to change it"));
         }
-        if !is_of_type(declared, &value) {
-            return Err(refuse("cannot have a value of this type"));
-        }
+        declared.check(&value).map_err(|refusal| refuse(&refusal.to_string()))?;
         self.values[at][index] = value;
         self.live.retain(|live| (live.pass, live.param) != (at, index));
         Ok(())
-    }
-}
-
-/// Whether a parameter can have this value, ranges apart.
-fn is_of_type(param: &ParamDescriptor, value: &ParamValue) -> bool {
-    match (&param.default, value) {
-        (ParamValue::Vector(default), ParamValue::Vector(value)) => default.len() == value.len(),
-        (ParamValue::Choice(_), ParamValue::Choice(word)) => param.choices.contains(word),
-        (default, value) => std::mem::discriminant(default) == std::mem::discriminant(value),
     }
 }

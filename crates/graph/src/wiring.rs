@@ -122,6 +122,15 @@ impl Passes {
         self.ports[pass].handles().zip(&self.kind(pass).signature.ports)
     }
 
+    /// The same with what the kind declares of each.
+    pub fn declared_ports_of(
+        &self,
+        pass: Handle<Pass>,
+    ) -> impl Iterator<Item = (Handle<GraphPort>, &PortSignature, &PortDescriptor)> + Clone {
+        let ports = self.ports_of(pass).zip(&self.kind(pass).descriptor.ports);
+        ports.map(|((port, signature), descriptor)| (port, signature, descriptor))
+    }
+
     /// The ports of other passes that a pass reads in the same frame, so that it runs after them.
     pub fn sources<'a>(&'a self, pass: Handle<Pass>, feeds: &'a Feeds) -> impl Iterator<Item = Handle<GraphPort>> + 'a {
         let read = self.ports_of(pass).filter(|(_, port)| port.role.reads_this_frame());

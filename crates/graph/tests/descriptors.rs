@@ -119,10 +119,7 @@ fn defaults_are_values_that_the_parameter_may_have() {
     assert!(bad(of_param(param("x", ParamValue::Float(f64::NAN), None))));
     assert!(bad(of_param(param("x", ParamValue::Integer(-1), Some((0.0, 1.0))))));
     assert!(bad(of_param(param("x", ParamValue::Vector(vec![0.0]), None))));
-    let choice = |choices: &[&str]| ParamDescriptor {
-        choices: choices.iter().map(|word| (*word).to_owned()).collect(),
-        ..param("x", ParamValue::Choice("a".into()), None)
-    };
+    let choice = |words: &[&str]| support::choice("x", "a", words);
     assert!(bad(of_param(choice(&["b"]))));
     assert_eq!(of_param(choice(&[])), [E::NoChoices("x".into())]);
     assert_eq!(of_param(choice(&["b", "a"])), []);

@@ -6,9 +6,9 @@ mod support;
 
 use std::sync::Arc;
 
-use support::{output, param, pass};
+use support::{choice, output, param, pass};
 use tyndall_document::{Diagnostics, Source};
-use tyndall_graph::descriptor::{Class, Format, PRESET, ParamDescriptor, ParamValue, PassDescriptor, Preset};
+use tyndall_graph::descriptor::{Class, Format, PRESET, ParamValue, PassDescriptor, Preset};
 use tyndall_graph::{Catalogue, DescriptorError, Graph, Override, Overrides, ParamSetting, read, validate};
 
 fn preset(name: &str, values: &[(&str, ParamValue)]) -> Preset {
@@ -17,10 +17,7 @@ fn preset(name: &str, values: &[(&str, ParamValue)]) -> Preset {
 }
 
 fn descriptor(presets: Vec<Preset>) -> PassDescriptor {
-    let choose = ParamDescriptor {
-        choices: vec!["clear".into(), "hazy".into()],
-        ..param(PRESET, ParamValue::Choice("clear".into()), None)
-    };
+    let choose = choice(PRESET, "clear", &["clear", "hazy"]);
     let density = param("density", ParamValue::Float(1.0), Some((0.0, 10.0)));
     let tint = param("tint", ParamValue::Vector(vec![1.0; 3]), None);
     let color = output("color", Class::Color, Format::Rgba32Float);
@@ -99,11 +96,11 @@ fn presets_that_contradict_their_pass_are_refused() {
     };
     let one = |name: &str, value: ParamValue| wrong(vec![preset("hazy", &[(name, value)])]);
     assert_eq!(wrong(hazy()), "");
-    assert!(wrong(vec![preset("foggy", &[])]).contains("is none that the parameter `preset` can choose"));
+    assert!(wrong(vec![preset("foggy", &[])]).contains("is not one of the choices of the parameter `preset`"));
     assert!(wrong(vec![preset("hazy", &[]), preset("hazy", &[])]).contains("stands twice"));
-    assert!(one("densty", ParamValue::Float(1.0)).contains("no parameter"));
-    assert!(one("density", ParamValue::Integer(1)).contains("another type"));
-    assert!(one("density", ParamValue::Float(11.0)).contains("outside its range"));
-    assert!(one("tint", ParamValue::Vector(vec![1.0; 2])).contains("other than 3 numbers"));
+    assert!(one("densty", ParamValue::Float(1.0)).contains("not a parameter of the pass"));
+    assert!(one("density", ParamValue::Integer(1)).contains("must be a number, got a whole number"));
+    assert!(one("density", ParamValue::Float(11.0)).contains("must be between 0 and 10, got 11"));
+    assert!(one("tint", ParamValue::Vector(vec![1.0; 2])).contains("must be 3 numbers, got 2 numbers"));
     assert!(one(PRESET, ParamValue::Choice("clear".into())).contains("chooses a preset"));
 }

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use tyndall_document::{BAD_SIZE, Decoder, Diagnostic, Diagnostics, Node, Source, Value};
 use tyndall_graph::descriptor::{
-    Class, Disabled, Extent, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role,
+    Class, Disabled, Extent, Format, ParamDescriptor, ParamType, PassDescriptor, PortDescriptor, PortKind, Role,
     SizeRule,
 };
-use tyndall_shader::{Linked, Param, ParamKind, ReflectedPort, ResourceKind, SampleClass, derive_port};
+use tyndall_shader::{Linked, ParamKind, ReflectedPort, ResourceKind, SampleClass, derive_port};
 
 use crate::codes::{BAD_PARAM, BAD_PORT};
 use crate::manifest::{Entry, ManifestPass};
@@ -222,9 +222,22 @@ fn param(decoder: &mut Decoder<'_>, entry: &Entry, linked: &Linked) -> Option<Pa
     let unit = fields.get("unit").and_then(|node| decoder.text(node)).unwrap_or_default().to_owned();
     let choices = fields.get("choices").and_then(|node| words(decoder, node)).unwrap_or_default();
     let range = fields.get("range").and_then(|node| decoder.floats::<2>(node)).map(|[low, high]| (low, high));
-    let default = fields.required(decoder, "default").and_then(|node| default(decoder, node, reflected, &choices));
-    let fixed = reflected.is_override();
-    Some(ParamDescriptor { name: entry.name.clone(), about, unit, default: default?, range, choices, fixed })
+    let node = fields.required(decoder, "default")?;
+    let accepts = accepted(reflected.kind, &node.value, range, choices);
+    let default = accepts.read(decoder, node, &entry.name, &unit)?;
+    Some(ParamDescriptor { name: entry.name.clone(), about, unit, accepts, default, fixed: reflected.is_override() })
+}
+
+/// What a parameter accepts: of the type that the shader says; a `u32` is a switch where its default is one, and a choice
+/// where there are words to choose from.
+fn accepted(kind: ParamKind, default: &Value, range: Option<(f64, f64)>, words: Vec<String>) -> ParamType {
+    match (kind, default) {
+        (ParamKind::Uint, _) if !words.is_empty() => ParamType::Choice { words },
+        (ParamKind::Bool, _) | (ParamKind::Uint, Value::Bool(_)) => ParamType::Bool,
+        (ParamKind::Int | ParamKind::Uint, _) => ParamType::Integer { range },
+        (ParamKind::Float, _) => ParamType::Float { range },
+        (ParamKind::Vector(length), _) => ParamType::Vector { length: length.into(), range },
+    }
 }
 
 /// The input that a switch needs must be one of the shader's.
@@ -253,28 +266,6 @@ pub(crate) fn needs(pass: &ManifestPass) -> Vec<Need> {
 fn words(decoder: &mut Decoder<'_>, node: &Node) -> Option<Vec<String>> {
     let items = decoder.list(node)?;
     items.iter().map(|item| decoder.text(item).map(str::to_owned)).collect()
-}
-
-/// The default, read as the type that the shader says; a `u32` is a switch where the default is one, and a choice
-/// where there are words to choose from.
-fn default(decoder: &mut Decoder<'_>, node: &Node, param: &Param, choices: &[String]) -> Option<ParamValue> {
-    if !choices.is_empty() && param.kind == ParamKind::Uint {
-        let word = decoder.text(node)?;
-        if !choices.iter().any(|choice| choice == word) {
-            let message = format!("{word:?} is none of the choices");
-            let place = decoder.place(node.span);
-            decoder.report(Diagnostic::error(BAD_PARAM, place, message).suggest(choices.join(", ")));
-        }
-        return Some(ParamValue::Choice(word.to_owned()));
-    }
-    match (param.kind, &node.value) {
-        (ParamKind::Bool, _) | (ParamKind::Uint, Value::Bool(_)) => decoder.bool(node).map(ParamValue::Bool),
-        (ParamKind::Int | ParamKind::Uint, _) => decoder.integer(node).map(ParamValue::Integer),
-        (ParamKind::Float, _) => decoder.float(node).map(ParamValue::Float),
-        (ParamKind::Vector(2), _) => decoder.floats::<2>(node).map(|values| ParamValue::Vector(values.to_vec())),
-        (ParamKind::Vector(3), _) => decoder.floats::<3>(node).map(|values| ParamValue::Vector(values.to_vec())),
-        (ParamKind::Vector(_), _) => decoder.floats::<4>(node).map(|values| ParamValue::Vector(values.to_vec())),
-    }
 }
 
 /// Four numbers that may be infinite: what a texel reads as.

@@ -7,8 +7,8 @@
 //! }
 //! ```
 
-use tyndall_document::{Decoder, Diagnostic, Node, Span};
-use tyndall_graph::descriptor::{PRESET, ParamDescriptor, ParamValue, Preset};
+use tyndall_document::{Decoder, Diagnostic, Span};
+use tyndall_graph::descriptor::{PRESET, ParamDescriptor, ParamType, ParamValue, Preset};
 
 use crate::codes::BAD_PARAM;
 use crate::manifest::Entry;
@@ -25,27 +25,11 @@ fn preset(decoder: &mut Decoder<'_>, entry: &Entry, params: &[ParamDescriptor]) 
     let mut values = Vec::new();
     for (name, span, node) in given {
         match params.iter().find(|param| param.name == name) {
-            Some(param) => values.extend(value(decoder, node, param).map(|value| (name.to_owned(), value))),
+            Some(param) => values.extend(param.read(decoder, node).map(|value| (name.to_owned(), value))),
             None => unknown(decoder, name, span, params),
         }
     }
     Some(Preset { name: entry.name.clone(), about, values })
-}
-
-/// A value of the type of the parameter's default; whether it is in its range is told with the descriptor.
-fn value(decoder: &mut Decoder<'_>, node: &Node, param: &ParamDescriptor) -> Option<ParamValue> {
-    Some(match &param.default {
-        ParamValue::Bool(_) => ParamValue::Bool(decoder.bool(node)?),
-        ParamValue::Integer(_) => ParamValue::Integer(decoder.integer(node)?),
-        ParamValue::Float(_) => ParamValue::Float(decoder.float(node)?),
-        ParamValue::Vector(default) => ParamValue::Vector(match default.len() {
-            2 => decoder.floats::<2>(node)?.to_vec(),
-            3 => decoder.floats::<3>(node)?.to_vec(),
-            _ => decoder.floats::<4>(node)?.to_vec(),
-        }),
-        ParamValue::Choice(_) => ParamValue::Choice(decoder.text(node)?.to_owned()),
-        ParamValue::File(_) => ParamValue::File(decoder.text(node)?.to_owned()),
-    })
 }
 
 fn unknown(decoder: &mut Decoder<'_>, name: &str, span: Span, params: &[ParamDescriptor]) {
@@ -62,9 +46,8 @@ pub(crate) fn preset_param(presets: &[Preset]) -> Option<ParamDescriptor> {
         about: "Values of several parameters under one word; a parameter that is given keeps what it is given"
             .to_owned(),
         unit: String::new(),
+        accepts: ParamType::Choice { words: presets.iter().map(|preset| preset.name.clone()).collect() },
         default: ParamValue::Choice(first.name.clone()),
-        range: None,
-        choices: presets.iter().map(|preset| preset.name.clone()).collect(),
         fixed: false,
     })
 }

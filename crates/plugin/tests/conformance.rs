@@ -104,12 +104,12 @@ fn is_sentence(text: &str) -> bool {
 }
 
 fn is_in_range(param: &ParamDescriptor) -> bool {
-    let within = |number: f64| param.range.is_none_or(|(low, high)| (low..=high).contains(&number));
+    let within = |number: f64| param.accepts.range().is_none_or(|(low, high)| (low..=high).contains(&number));
     match &param.default {
         ParamValue::Integer(number) => within(*number as f64),
         ParamValue::Float(number) => within(*number),
         ParamValue::Vector(numbers) => numbers.iter().all(|number| within(*number)),
-        ParamValue::Choice(word) => param.choices.contains(word),
+        ParamValue::Choice(word) => param.accepts.choices().contains(word),
         ParamValue::Bool(_) | ParamValue::File(_) => true,
     }
 }

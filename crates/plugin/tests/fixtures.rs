@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use tyndall_document::{BAD_SIZE, BAD_VERSION, Diagnostics, Source, fixture};
+use tyndall_document::{BAD_SIZE, BAD_VERSION, Code, Diagnostics, OUT_OF_RANGE, Source, fixture};
+use tyndall_graph::codes::UNKNOWN_CHOICE;
 use tyndall_plugin::{CODES, Folder, Registry, SearchPath, find_folders};
 use tyndall_shader::Library;
 
@@ -38,7 +39,8 @@ fn run(source: &Arc<Source>) -> Diagnostics {
 
 #[test]
 fn every_code_has_its_text() {
-    fixture::check(Path::new("tests/fixtures"), &[CODES, &[BAD_SIZE, BAD_VERSION]].concat(), &run);
+    const ALSO: &[Code] = &[BAD_SIZE, BAD_VERSION, OUT_OF_RANGE, UNKNOWN_CHOICE];
+    fixture::check(Path::new("tests/fixtures"), &[CODES, ALSO].concat(), &run);
 }
 
 /// The manifest that the fixtures are mistakes of has none.

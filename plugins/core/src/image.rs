@@ -4,8 +4,8 @@ use std::path::Path;
 
 use tyndall_image::Image;
 use tyndall_plugin::descriptor::{
-    Class, Dimension, Disabled, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role,
-    SizeRule,
+    Class, Dimension, Disabled, Format, ParamDescriptor, ParamType, ParamValue, PassDescriptor, PortDescriptor,
+    PortKind, Role, SizeRule,
 };
 use tyndall_plugin::{GpuError, Program, Recorder, Resource, RustPass, Setup, Table};
 
@@ -41,9 +41,8 @@ fn descriptor() -> PassDescriptor {
             name: "file".to_owned(),
             about: "Path of the picture, from the graph file".to_owned(),
             unit: String::new(),
+            accepts: ParamType::File,
             default: ParamValue::File(String::new()),
-            range: None,
-            choices: Vec::new(),
             fixed: true,
         }]),
         presets: Vec::new(),

@@ -159,13 +159,11 @@ impl Varied {
 
 /// Why a parameter cannot vary.
 fn why_not(param: &ParamDescriptor, from: f64, to: f64) -> Option<String> {
-    let (low, high) = param.range.unwrap_or((f64::MIN, f64::MAX));
-    match param.default {
-        _ if param.fixed => Some("is part of the pipeline, and cannot change while it runs".to_owned()),
-        ParamValue::Float(_) if [from, to].iter().all(|value| (low..=high).contains(value)) => None,
-        ParamValue::Float(_) => Some(format!("takes numbers from {low} to {high}")),
-        _ => Some("is not a number".to_owned()),
+    if param.fixed {
+        return Some("is part of the pipeline, and cannot change while it runs".to_owned());
     }
+    let refusal = [from, to].into_iter().find_map(|value| param.check(&ParamValue::Float(value)).err());
+    refusal.map(|refusal| refusal.to_string())
 }
 
 impl Figures {

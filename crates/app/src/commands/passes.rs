@@ -3,8 +3,8 @@
 use serde_json::{Value, json};
 use tyndall_document::did_you_mean;
 use tyndall_graph::descriptor::{
-    Axis, Class, Dimension, Disabled, Extent, ParamDescriptor, ParamValue, PortDescriptor, PortKind, Preset, Role,
-    SizeRule,
+    Axis, Class, Dimension, Disabled, Extent, ParamDescriptor, ParamType, ParamValue, PortDescriptor, PortKind, Preset,
+    Role, SizeRule,
 };
 use tyndall_plugin::{Limit, Origin, RegistryPass};
 
@@ -105,11 +105,12 @@ fn port_text(port: &PortDescriptor) -> String {
 }
 
 fn param_text(pass: &RegistryPass, param: &ParamDescriptor) -> String {
-    let mut facts = vec![type_name(&param.default).to_owned()];
+    let mut facts = vec![type_name(&param.accepts).to_owned()];
     facts.extend((!param.unit.is_empty()).then(|| param.unit.clone()));
     facts.push(format!("default {}", param.default));
-    facts.extend(param.range.map(|(low, high)| format!("{low} to {high}")));
-    facts.extend((!param.choices.is_empty()).then(|| format!("one of {}", param.choices.join(", "))));
+    facts.extend(param.accepts.range().map(|(low, high)| format!("{low} to {high}")));
+    let choices = param.accepts.choices();
+    facts.extend((!choices.is_empty()).then(|| format!("one of {}", choices.join(", "))));
     facts.extend(param.fixed.then(|| "part of the pipeline".to_owned()));
     facts.extend(need(pass, param).map(|port| format!("needs the input {port}")));
     format!("  {}: {}\n{}", param.name, facts.join(", "), wrapped(&param.about, "      "))
@@ -168,14 +169,14 @@ fn role(port: &PortDescriptor) -> Option<String> {
     }
 }
 
-fn type_name(value: &ParamValue) -> &'static str {
-    match value {
-        ParamValue::Bool(_) => "switch",
-        ParamValue::Integer(_) => "whole number",
-        ParamValue::Float(_) => "number",
-        ParamValue::Vector(_) => "vector",
-        ParamValue::Choice(_) => "choice",
-        ParamValue::File(_) => "file",
+fn type_name(accepts: &ParamType) -> &'static str {
+    match accepts {
+        ParamType::Bool => "switch",
+        ParamType::Integer { .. } => "whole number",
+        ParamType::Float { .. } => "number",
+        ParamType::Vector { .. } => "vector",
+        ParamType::Choice { .. } => "choice",
+        ParamType::File => "file",
     }
 }
 
@@ -293,10 +294,10 @@ fn param_json(pass: &RegistryPass, param: &ParamDescriptor) -> Value {
         "name": param.name,
         "about": param.about,
         "unit": param.unit,
-        "type": type_name(&param.default),
+        "type": type_name(&param.accepts),
         "default": value_json(&param.default),
-        "range": param.range.map(|(low, high)| [low, high]),
-        "choices": param.choices,
+        "range": param.accepts.range().map(|(low, high)| [low, high]),
+        "choices": param.accepts.choices(),
         "fixed": param.fixed,
         "needs": need(pass, param),
     })

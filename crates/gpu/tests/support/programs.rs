@@ -6,8 +6,8 @@ use std::sync::Arc;
 use tyndall_document::{Source, render_text};
 use tyndall_gpu::{GpuError, Kernel, Program, Programs, Recorder, Setup};
 use tyndall_graph::descriptor::{
-    Class, Dimension, Disabled, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role,
-    SizeRule,
+    Class, Dimension, Disabled, Format, ParamDescriptor, ParamType, ParamValue, PassDescriptor, PortDescriptor,
+    PortKind, Role, SizeRule,
 };
 use tyndall_graph::{Catalogue, Resource};
 use tyndall_shader::{Library, Linked, link};
@@ -88,9 +88,8 @@ fn pass(name: &str, ports: Vec<PortDescriptor>, param: Option<&str>) -> PassDesc
         name: name.to_owned(),
         about: "A number".to_owned(),
         unit: String::new(),
+        accepts: ParamType::Float { range: None },
         default: ParamValue::Float(1.0),
-        range: None,
-        choices: Vec::new(),
         fixed: false,
     };
     PassDescriptor {

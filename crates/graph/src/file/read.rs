@@ -93,8 +93,9 @@ fn extent(decoder: &mut Decoder<'_>, node: &Node) -> Option<u32> {
         Ok(extent) if extent > 0 => Some(extent),
         _ => {
             let place = decoder.place(node.span);
-            let message = format!("a size of {value} pixels is none");
-            decoder.report(Diagnostic::error(BAD_SIZE, place, message).suggest("give a number of 1 or more"));
+            let bound = if value < 1 { "at least 1".to_owned() } else { format!("at most {}", u32::MAX) };
+            let message = format!("a size must be {bound}, got {value}");
+            decoder.report(Diagnostic::error(BAD_SIZE, place, message));
             None
         }
     }

@@ -25,7 +25,7 @@ impl<K, V> Segment<K, V> {
 
     /// The handle that stands for `key`.
     pub fn at(self, key: Handle<K>) -> Handle<V> {
-        Handle::at(self.first + key.offset())
+        Handle { number: key.number.saturating_add(self.first), of: PhantomData }
     }
 
     /// What a handle of this segment stands for.

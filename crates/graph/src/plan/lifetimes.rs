@@ -59,15 +59,16 @@ impl Draft {
     /// Adds a pass at the next position.
     fn pass(&mut self, wiring: &Wiring, pass: Handle<Pass>) {
         let (position, first) = (self.passes.next_handle(), self.ports.next_handle());
-        for (number, port) in wiring.passes.ports_of(pass) {
-            if port.role.reads_this_frame()
+        let ports = wiring.passes.ports[pass];
+        for (port, signature) in wiring.passes.kind(pass).signature.ports.entries() {
+            let number = ports.at(port);
+            if signature.role.reads_this_frame()
                 && let Some(source) = self.source(wiring, number)
             {
                 self.ports[source].until = Until::Pass(position);
             }
-            if port.role.is_output() {
-                let port = PortRef { pass, port: wiring.passes.ports[pass].key(number) };
-                let written = DraftPort::new(Some(position), port, wiring.flows[number].class);
+            if signature.role.is_output() {
+                let written = DraftPort::new(Some(position), PortRef { pass, port }, wiring.flows[number].class);
                 self.planned[number] = Some(self.ports.push(written));
             }
         }

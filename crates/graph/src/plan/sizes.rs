@@ -48,9 +48,10 @@ struct Resolver<'a> {
 
 impl Resolver<'_> {
     fn pass(&mut self, pass: Handle<Pass>) {
-        let signature = &self.graph.wiring.passes.kind(pass).signature;
+        let passes = &self.graph.wiring.passes;
+        let (signature, ports) = (&passes.kind(pass).signature, passes.ports[pass]);
         for port in &signature.size_order {
-            let number = self.graph.wiring.passes.ports[pass].at(*port);
+            let number = ports.at(*port);
             self.sizes[number] = self.port(pass, number, &signature.ports[*port]);
         }
         for port in &signature.demands {

@@ -3,7 +3,7 @@
 use tyndall_document::is_name;
 
 use super::DescriptorError;
-use crate::descriptor::{PRESET, ParamDescriptor, ParamValue, PassDescriptor};
+use crate::descriptor::{PRESET, ParamDescriptor, ParamType, PassDescriptor};
 
 /// Every name is one, and none stands twice.
 pub(super) fn check_names(descriptor: &PassDescriptor, errors: &mut Vec<DescriptorError>) {
@@ -27,63 +27,35 @@ pub(super) fn check_names(descriptor: &PassDescriptor, errors: &mut Vec<Descript
     }
 }
 
-/// The default is one of the parameter's values.
+/// What the parameter accepts can be, and its default is such a value.
 pub(super) fn check_default(param: &ParamDescriptor, errors: &mut Vec<DescriptorError>) {
-    if matches!(param.default, ParamValue::Choice(_)) && param.choices.is_empty() {
-        errors.push(DescriptorError::NoChoices(param.name.clone()));
-        return;
+    let bad = |why: String| DescriptorError::BadDefault { param: param.name.clone(), why };
+    match &param.accepts {
+        ParamType::Choice { words } if words.is_empty() => errors.push(DescriptorError::NoChoices(param.name.clone())),
+        ParamType::Vector { length, .. } if !(2..=4).contains(length) => {
+            errors.push(bad(format!("must be 2 to 4 numbers, got {length}")));
+        }
+        _ => errors.extend(param.check(&param.default).err().map(|refusal| bad(refusal.to_string()))),
     }
-    let whys = faults(param, &param.default).into_iter();
-    errors.extend(whys.map(|why| DescriptorError::BadDefault { param: param.name.clone(), why }));
 }
 
-/// Each preset is one that the parameter [`PRESET`] can choose, and gives values that its parameters may have.
+/// Each preset is one that the parameter [`PRESET`] can choose, and gives values that its parameters accept.
 pub(super) fn check_presets(descriptor: &PassDescriptor, errors: &mut Vec<DescriptorError>) {
-    let param_named = |name: &str| descriptor.param_named(name).map(|param| &descriptor.params[param]);
-    let choices = param_named(PRESET).map(|param| param.choices.as_slice()).unwrap_or_default();
+    let choices = descriptor.param(PRESET).map(|param| param.accepts.choices()).unwrap_or_default();
     for preset in &descriptor.presets {
         let mut wrong = |why: String| errors.push(DescriptorError::BadPreset { preset: preset.name.clone(), why });
         if !choices.contains(&preset.name) {
-            wrong(format!("is none that the parameter `{PRESET}` can choose"));
+            wrong(format!("is not one of the choices of the parameter `{PRESET}`"));
         }
         for (name, value) in &preset.values {
-            match param_named(name) {
-                None => wrong(format!("gives `{name}`, which is no parameter")),
+            match descriptor.param(name) {
+                None => wrong(format!("gives `{name}`, which is not a parameter of the pass")),
                 Some(_) if name == PRESET => wrong("chooses a preset".to_owned()),
-                Some(param) if std::mem::discriminant(value) != std::mem::discriminant(&param.default) => {
-                    wrong(format!("gives `{name}` a value of another type"));
-                }
                 Some(param) => {
-                    faults(param, value).into_iter().for_each(|why| wrong(format!("gives `{name}`, which {why}")))
+                    let refusal = param.check(value).err();
+                    refusal.into_iter().for_each(|refusal| wrong(format!("gives `{name}`, which {refusal}")));
                 }
             }
         }
     }
-}
-
-/// Why a value of the right type is none that the parameter may have.
-fn faults(param: &ParamDescriptor, value: &ParamValue) -> Vec<String> {
-    let numbers = match value {
-        ParamValue::Integer(value) => vec![*value as f64],
-        ParamValue::Float(value) => vec![*value],
-        ParamValue::Vector(values) => values.clone(),
-        ParamValue::Bool(_) | ParamValue::File(_) | ParamValue::Choice(_) => Vec::new(),
-    };
-    let mut faults = Vec::new();
-    if let (ParamValue::Vector(values), ParamValue::Vector(default)) = (value, &param.default) {
-        if !(2..=4).contains(&values.len()) {
-            faults.push("is a vector of other than 2 to 4 numbers".to_owned());
-        } else if values.len() != default.len() {
-            faults.push(format!("is a vector of other than {} numbers", default.len()));
-        }
-    }
-    let (low, high) = param.range.unwrap_or((f64::MIN, f64::MAX));
-    let outside = numbers.iter().filter(|number| !(**number >= low && **number <= high));
-    faults.extend(outside.map(|number| format!("is {number}, outside its range")));
-    if let ParamValue::Choice(word) = value
-        && !param.choices.contains(word)
-    {
-        faults.push(format!("is `{word}`, which is not one of its words"));
-    }
-    faults
 }

@@ -2,7 +2,7 @@
 
 use super::{Amount, DescriptorError, PortSignature, RoleKind, Rule};
 use crate::descriptor::{
-    Class, Dimension, Disabled, Extent, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role,
+    Class, Dimension, Disabled, Extent, ParamDescriptor, ParamType, PassDescriptor, PortDescriptor, PortKind, Role,
     SizeRule,
 };
 use crate::handle::Handle;
@@ -79,8 +79,7 @@ fn amount(
             }
         }
         Extent::Picture { param: named, axis } => {
-            let is_file =
-                |param: &Handle<ParamDescriptor>| matches!(descriptor.params[*param].default, ParamValue::File(_));
+            let is_file = |param: &Handle<ParamDescriptor>| descriptor.params[*param].accepts == ParamType::File;
             match descriptor.param_named(named).filter(is_file) {
                 Some(param) => Amount::Picture(param, *axis),
                 None => {
@@ -90,7 +89,9 @@ fn amount(
             }
         }
         Extent::Param(named) => match descriptor.param_named(named) {
-            Some(param) if matches!(descriptor.params[param].default, ParamValue::Integer(_)) => Amount::Param(param),
+            Some(param) if matches!(descriptor.params[param].accepts, ParamType::Integer { .. }) => {
+                Amount::Param(param)
+            }
             found => {
                 let (port, named) = (name(), named.clone());
                 errors.push(match found {

@@ -37,7 +37,8 @@ pub(super) fn connect(scope: &Scope<'_>, out: &mut Mistakes) -> Connections {
             let Some(to) = input_port(scope, pass, input, out) else { continue };
             is_named[scope.passes.port(to)] = true;
             if let Some((port, from)) = from {
-                connections.join(scope, port, to, from);
+                let history = scope.passes.kind(pass).signature.ports[to.port].role == RoleKind::History;
+                connections.join(scope, Connection { from: port, to, history, span: from.span });
             }
         }
         for (port, signature) in scope.passes.ports_of(pass).filter(|(port, _)| !is_named[*port]) {
@@ -69,14 +70,13 @@ pub(super) fn outputs(scope: &Scope<'_>, out: &mut Mistakes) -> Vec<(String, Por
 }
 
 impl Connections {
-    fn join(&mut self, scope: &Scope<'_>, from: PortRef, to: PortRef, text: &Text) {
-        let port = scope.passes.port(to);
-        let history = scope.passes.signature(port).role == RoleKind::History;
-        if history {
+    fn join(&mut self, scope: &Scope<'_>, connection: Connection) {
+        let port = scope.passes.port(connection.to);
+        if connection.history {
             self.history.push(port);
         }
-        self.written[port] = Feed::Port(scope.passes.port(from));
-        self.to[port] = Some(self.list.push(Connection { from, to, history, span: text.span }));
+        self.written[port] = Feed::Port(scope.passes.port(connection.from));
+        self.to[port] = Some(self.list.push(connection));
     }
 }
 

@@ -7,7 +7,6 @@ use tyndall_document::{Decoder, Diagnostics, Node, Place, Source, Value};
 
 use super::mistakes::Mistakes;
 use super::scope::Scope;
-use super::values::typed;
 use crate::codes;
 use crate::descriptor::{ParamDescriptor, ParamValue, PassDescriptor};
 use crate::graph::ParamRef;
@@ -41,7 +40,7 @@ impl<'a> Given<'a> {
     /// Its value as one of a parameter.
     pub fn typed(self, param: &ParamDescriptor, out: &mut Mistakes) -> Option<ParamValue> {
         let mut found = Diagnostics::default();
-        let value = typed(&mut Decoder::new(self.source, &mut found), param, self.node);
+        let value = param.read(&mut Decoder::new(self.source, &mut found), self.node);
         out.extend(match self.argument {
             Some(argument) => moved_to_argument(found, argument),
             None => found,

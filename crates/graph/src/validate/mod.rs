@@ -15,7 +15,6 @@ mod settings;
 mod sizes;
 mod switches;
 mod types;
-mod values;
 
 use std::path::Path;
 use std::sync::Arc;

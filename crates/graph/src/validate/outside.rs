@@ -26,8 +26,8 @@ pub(super) fn size(request: &Request<'_>, out: &mut Mistakes) -> (u32, u32) {
     };
     if width == 0 || height == 0 {
         let place = Place::Argument(format!("--size {width}x{height}"));
-        let message = format!("a size of {width}×{height} pixels is none");
-        out.report(Diagnostic::error(BAD_SIZE, place, message).suggest("give two numbers of 1 or more"));
+        let message = format!("the size must be at least 1×1, got {width}×{height}");
+        out.report(Diagnostic::error(BAD_SIZE, place, message));
     }
     (width, height)
 }

@@ -1,11 +1,10 @@
 //! Parameters of the graph, with what the command line puts in their place.
 
 use rustc_hash::FxHashMap;
-use tyndall_document::{Decoder, Diagnostic, Diagnostics, Node, Place, Span, Value};
+use tyndall_document::{Decoder, Diagnostic, Diagnostics, Place, Span};
 
 use super::mistakes::Mistakes;
 use super::scope::Scope;
-use super::values::{kind_name, numbers};
 use crate::codes;
 use crate::descriptor::ParamValue;
 use crate::graph::{GraphParam, ParamRef};
@@ -40,7 +39,7 @@ pub(super) fn read<'a>(scope: &Scope<'a>, out: &mut Mistakes) -> Params<'a> {
         let param = params.values.push(GraphValue {
             name: name.to_owned(),
             definition: entry.name.span,
-            value: free_value(&mut Decoder::new(&file.source, out.diagnostics()), &entry.value),
+            value: ParamValue::read(&mut Decoder::new(&file.source, out.diagnostics()), &entry.value),
             place: scope.place(entry.value.span),
             overridden: false,
         });
@@ -62,13 +61,13 @@ impl Params<'_> {
             return;
         };
         let mut found = Diagnostics::default();
-        let value = free_value(&mut Decoder::new(&given.source, &mut found), &given.value);
+        let value = ParamValue::read(&mut Decoder::new(&given.source, &mut found), &given.value);
         out.extend(moved_to_argument(found, &given.argument));
         let param = &mut self.values[param];
         if let (Some(declared), Some(value)) = (&param.value, &value)
-            && kind_name(declared) != kind_name(value)
+            && declared.words() != value.words()
         {
-            let message = format!("`{}` is {}, and {value} is {}", param.name, kind_name(declared), kind_name(value));
+            let message = format!("`{}` is {}, and {value} is {}", param.name, declared.words(), value.words());
             let diagnostic = Diagnostic::error(tyndall_document::WRONG_TYPE, place, message);
             out.report(diagnostic.relate(scope.place(param.definition), "it takes its type from here"));
             return;
@@ -132,21 +131,4 @@ impl Params<'_> {
 fn names<'a>(scope: &Scope<'a>) -> impl Iterator<Item = &'a str> + Clone + use<'a> {
     let file = scope.file;
     file.params.iter().map(|param| file.text(&param.name))
-}
-
-/// A value whose type is its own: a text stays a [`ParamValue::Choice`] until its use says what it means.
-fn free_value(decoder: &mut Decoder<'_>, node: &Node) -> Option<ParamValue> {
-    match &node.value {
-        Value::Bool(value) => Some(ParamValue::Bool(*value)),
-        Value::Number(number) => match number.integer {
-            Some(integer) => Some(ParamValue::Integer(integer)),
-            None => decoder.float(node).map(ParamValue::Float),
-        },
-        Value::Text(text) if !text.starts_with('$') => Some(ParamValue::Choice(text.clone())),
-        Value::Tuple(parts) if (2..=4).contains(&parts.len()) => numbers(decoder, parts).map(ParamValue::Vector),
-        _ => {
-            decoder.wrong_type(node, "a switch, a number, a text or 2 to 4 numbers");
-            None
-        }
-    }
 }

@@ -9,7 +9,6 @@ use super::given::{Given, overrides, unknown_param};
 use super::mistakes::Mistakes;
 use super::params::{GraphValue, Params};
 use super::scope::{Scope, missing_file};
-use super::values::{converted, kind_of, same_kind, within};
 use crate::codes;
 use crate::descriptor::{PRESET, ParamDescriptor, ParamValue, PassDescriptor};
 use crate::file::PassEntry;
@@ -44,6 +43,12 @@ pub(super) fn read(scope: &Scope<'_>, params: &Params<'_>, out: &mut Mistakes) -
     reader.settings
 }
 
+/// The settings of a pass, and which of them the file or the command line gives.
+struct Found {
+    settings: OfPass,
+    is_given: Table<ParamDescriptor, bool>,
+}
+
 struct Reader<'s, 'a> {
     scope: &'s Scope<'a>,
     params: &'s Params<'a>,
@@ -54,38 +59,15 @@ struct Reader<'s, 'a> {
 
 impl<'a> Reader<'_, 'a> {
     fn pass(&mut self, pass: Handle<Pass>, entry: &'a PassEntry) -> OfPass {
-        let scope = self.scope;
-        let descriptor = &scope.passes.kind(pass).descriptor;
-        let mut settings: OfPass =
-            descriptor.params.iter().map(|param| ParamSetting::Value(param.default.clone())).collect();
-        let mut is_given = descriptor.params.column(false);
-        let by_file = self.given_by_file(pass, entry);
-        for (param, given) in by_file.into_iter().chain(self.given_by_command_line(pass, descriptor)) {
-            is_given[param] = true;
-            let at = ParamRef { pass, param };
-            if given.argument.is_some() {
-                self.settings.uses.retain(|(_, by)| *by != at);
-            }
-            if let Some(setting) = self.setting(&descriptor.params[param], at, given) {
-                settings[param] = setting;
-            }
-            if scope.passes.kind(pass).signature.size_params.contains(&param) {
-                self.size_param(&descriptor.params[param].name, at, &settings[param], given.place());
-            }
-        }
-        use_preset(descriptor, &mut settings, &is_given);
-        settings
-    }
-
-    fn given_by_file(&mut self, pass: Handle<Pass>, entry: &'a PassEntry) -> Vec<(Handle<ParamDescriptor>, Given<'a>)> {
         let (scope, file) = (self.scope, self.scope.file);
         let descriptor = &scope.passes.kind(pass).descriptor;
-        let mut found = Vec::with_capacity(entry.params.len());
+        let defaults = descriptor.params.iter().map(|param| ParamSetting::Value(param.default.clone()));
+        let mut found = Found { settings: defaults.collect(), is_given: descriptor.params.column(false) };
         for entry in &entry.params {
             let name = file.text(&entry.name);
             let given = Given { node: &entry.value, source: &file.source, argument: None };
             if let Some(param) = descriptor.param_named(name) {
-                found.push((param, given));
+                self.set(&mut found, ParamRef { pass, param }, given);
                 continue;
             }
             if scope.is_known(pass) {
@@ -93,22 +75,27 @@ impl<'a> Reader<'_, 'a> {
             }
             self.settings.used.extend(given.reference().and_then(|name| self.params.find(name)));
         }
-        found
+        for param in descriptor.params.handles().map(|param| ParamRef { pass, param }) {
+            if let Some(Override { value: node, source, argument, .. }) = self.overrides.get(&param).copied() {
+                self.settings.uses.retain(|(_, by)| *by != param);
+                self.set(&mut found, param, Given { node, source, argument: Some(argument) });
+            }
+        }
+        use_preset(descriptor, &mut found);
+        found.settings
     }
 
-    fn given_by_command_line(
-        &self,
-        pass: Handle<Pass>,
-        descriptor: &PassDescriptor,
-    ) -> Vec<(Handle<ParamDescriptor>, Given<'a>)> {
-        if self.overrides.is_empty() {
-            return Vec::new();
+    /// Sets a parameter to what is given.
+    fn set(&mut self, found: &mut Found, param: ParamRef, given: Given<'_>) {
+        let kind = self.scope.passes.kind(param.pass);
+        let descriptor = &kind.descriptor.params[param.param];
+        found.is_given[param.param] = true;
+        if let Some(setting) = self.setting(descriptor, param, given) {
+            found.settings[param.param] = setting;
         }
-        let given = |param| {
-            let Override { value, source, argument, .. } = self.overrides.get(&ParamRef { pass, param })?;
-            Some((param, Given { node: value, source, argument: Some(argument) }))
-        };
-        descriptor.params.handles().filter_map(given).collect()
+        if kind.signature.size_params.contains(&param.param) {
+            self.size_param(&descriptor.name, param, &found.settings[param.param], given.place());
+        }
     }
 
     /// What is given as a setting of a parameter.
@@ -138,12 +125,13 @@ impl<'a> Reader<'_, 'a> {
         let source = &self.params.values[found];
         let value = source.value.clone()?;
         self.settings.uses.push((found, param));
-        let Some(mut value) = converted(value, &descriptor.default) else {
+        let Some(mut value) = descriptor.accepts.convert(value) else {
             self.report_other_type(source, descriptor, place);
             return None;
         };
-        if let Err(mistake) = within(descriptor, &value) {
-            self.out.report(mistake.at(source.place.clone()).relate(place, "used here"));
+        if let Err(refusal) = descriptor.check(&value) {
+            let mistake = refusal.at(&descriptor.name, source.place.clone());
+            self.out.report(mistake.relate(place, "used here"));
             return None;
         }
         self.find_file(&mut value, !source.overridden, source.place.clone());
@@ -152,13 +140,13 @@ impl<'a> Reader<'_, 'a> {
 
     /// A parameter that is set to `$frame` or `$time`.
     fn live(&mut self, name: &str, descriptor: &ParamDescriptor, place: Place) -> Option<ParamSetting> {
-        let fits = |number: ParamValue| same_kind(&number, &descriptor.default);
+        let fits = |number: ParamValue| descriptor.accepts.is_type_of(&number);
         match name {
             "frame" if fits(ParamValue::Integer(0)) || fits(ParamValue::Float(0.0)) => Some(ParamSetting::Frame),
             "time" if fits(ParamValue::Float(0.0)) => Some(ParamSetting::Time),
             _ => {
                 let what = if name == "time" { "a number of seconds" } else { "a whole number" };
-                let message = format!("`{}` is {}, and ${name} is {what}", descriptor.name, kind_of(descriptor));
+                let message = format!("`{}` is {}, and ${name} is {what}", descriptor.name, descriptor.accepts.words());
                 self.out.report(Diagnostic::error(codes::WRONG_REFERENCE_TYPE, place, message));
                 None
             }
@@ -166,7 +154,7 @@ impl<'a> Reader<'_, 'a> {
     }
 
     fn report_other_type(&mut self, source: &GraphValue, descriptor: &ParamDescriptor, place: Place) {
-        let message = format!("`{}` is {}, and ${} is not", descriptor.name, kind_of(descriptor), source.name);
+        let message = format!("`{}` is {}, and ${} is not", descriptor.name, descriptor.accepts.words(), source.name);
         let (at, related, what) = match source.overridden {
             true => (source.place.clone(), place, "used here"),
             false => (place, self.scope.place(source.definition), "defined here"),
@@ -206,14 +194,14 @@ impl<'a> Reader<'_, 'a> {
 }
 
 /// Puts the values of the chosen preset in the place of the defaults of all parameters that are not given.
-fn use_preset(descriptor: &PassDescriptor, settings: &mut OfPass, is_given: &Table<ParamDescriptor, bool>) {
-    let chosen = descriptor.param_named(PRESET).and_then(|param| match &settings[param] {
+fn use_preset(descriptor: &PassDescriptor, found: &mut Found) {
+    let chosen = descriptor.param_named(PRESET).and_then(|param| match &found.settings[param] {
         ParamSetting::Value(ParamValue::Choice(word)) => descriptor.presets.iter().find(|preset| preset.name == *word),
         _ => None,
     });
     for (name, value) in chosen.map(|preset| preset.values.as_slice()).unwrap_or_default() {
-        if let Some(param) = descriptor.param_named(name).filter(|param| !is_given[*param]) {
-            settings[param] = ParamSetting::Value(value.clone());
+        if let Some(param) = descriptor.param_named(name).filter(|param| !found.is_given[*param]) {
+            found.settings[param] = ParamSetting::Value(value.clone());
         }
     }
 }

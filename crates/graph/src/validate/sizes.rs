@@ -36,9 +36,8 @@ fn mistake(graph: &Graph, problem: &SizeProblem) -> Option<Diagnostic> {
         SizeProblem::Differs { port, fed, demanded } => differs(graph, port, fed, demanded),
         SizeProblem::Param { param, value } => {
             let name = &graph.pass(param.pass).descriptor().params[param.param].name;
-            let message = format!("`{name}` sets the size of a port, and {value} is none");
-            let place = place_of(graph, param);
-            Some(Diagnostic::error(BAD_SIZE, place, message).suggest("give a number of 1 or more"))
+            let message = format!("`{name}` must be at least 1, because it sets the size of a port; got {value}");
+            Some(Diagnostic::error(BAD_SIZE, place_of(graph, param), message))
         }
         SizeProblem::Picture { param } => {
             let of_pass = graph.pass(param.pass);

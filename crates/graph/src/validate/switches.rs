@@ -6,7 +6,6 @@ use super::connections::Connections;
 use super::mistakes::Mistakes;
 use super::params::{GraphValue, Params};
 use super::scope::Scope;
-use super::values::kind_name;
 use crate::codes;
 use crate::descriptor::ParamValue;
 use crate::file::{Spanned, Switch};
@@ -50,7 +49,7 @@ fn is_on(scope: &Scope<'_>, param: &GraphValue, place: Place, out: &mut Mistakes
         Some(ParamValue::Bool(on)) => *on,
         None => true,
         Some(other) => {
-            let message = format!("`enabled` is a switch, and ${} is {}", param.name, kind_name(other));
+            let message = format!("`enabled` is a switch, and ${} is {}", param.name, other.words());
             let diagnostic = Diagnostic::error(codes::WRONG_REFERENCE_TYPE, place, message);
             out.report(diagnostic.relate(scope.place(param.definition), "defined here"));
             true

@@ -25,16 +25,12 @@ pub(super) fn check(
 ) -> Flows {
     let (passes, written) = (&scope.passes, &connections.written);
     let as_written = flows(passes, order, connections, written);
-    for port in passes.pass_of.handles() {
-        check_edge(scope, written, &as_written, port, out);
-    }
+    check_edges(scope, written, &as_written, |_| true, out);
     if feeds == written {
         return as_written;
     }
     let flows = flows(passes, order, connections, feeds);
-    for port in passes.pass_of.handles().filter(|port| feeds[*port] != written[*port]) {
-        check_edge(scope, feeds, &flows, port, out);
-    }
+    check_edges(scope, feeds, &flows, |port| feeds[port] != written[port], out);
     flows
 }
 
@@ -42,23 +38,24 @@ pub(super) fn check(
 fn flows(passes: &Passes, order: &[Handle<Pass>], connections: &Connections, feeds: &Feeds) -> Flows {
     let mut flows = passes.pass_of.column(Flow::UNKNOWN);
     for pass in passes.kind_of.handles() {
-        for (port, signature) in passes.ports_of(pass) {
+        for (port, signature, descriptor) in passes.declared_ports_of(pass) {
             if signature.role == RoleKind::Output && signature.like.is_none() {
-                flows[port] = declared(passes.descriptor(port), Flow::UNKNOWN);
+                flows[port] = declared(descriptor, Flow::UNKNOWN);
             }
         }
     }
     for pass in order {
-        for (port, _) in passes.ports_of(*pass).filter(|(_, port)| port.role.reads_this_frame()) {
+        let ports = passes.declared_ports_of(*pass);
+        for (port, _, descriptor) in ports.clone().filter(|(_, port, _)| port.role.reads_this_frame()) {
             flows[port] = match feeds[port].like() {
                 Some(source) if source != port => flows[source],
-                Some(_) => absent(passes.descriptor(port)),
+                Some(_) => absent(descriptor),
                 None => Flow::UNKNOWN,
             };
         }
-        for (port, signature) in passes.ports_of(*pass) {
+        for (port, signature, descriptor) in ports {
             if let Some(like) = signature.like {
-                flows[port] = declared(passes.descriptor(port), flows[passes.ports[*pass].at(like)]);
+                flows[port] = declared(descriptor, flows[passes.ports[*pass].at(like)]);
             }
         }
     }
@@ -70,16 +67,22 @@ fn flows(passes: &Passes, order: &[Handle<Pass>], connections: &Connections, fee
     flows
 }
 
-/// Reports what is wrong with what is fed to a port, if it is an input.
-fn check_edge(scope: &Scope<'_>, feeds: &Feeds, flows: &Flows, port: Handle<GraphPort>, out: &mut Mistakes) {
+/// Reports what is wrong with what is fed to inputs.
+fn check_edges(
+    scope: &Scope<'_>,
+    feeds: &Feeds,
+    flows: &Flows,
+    concerns: impl Fn(Handle<GraphPort>) -> bool,
+    out: &mut Mistakes,
+) {
     let passes = &scope.passes;
-    if !passes.signature(port).role.is_input() {
-        return;
+    let ports = passes.kind_of.handles().flat_map(|pass| passes.declared_ports_of(pass));
+    for (port, _, demanded) in ports.filter(|(port, signature, _)| signature.role.is_input() && concerns(*port)) {
+        let Some(source) = feeds[port].like().filter(|source| *source != port) else { continue };
+        let fed = passes.descriptor(source);
+        let mistake = kind_mistake(demanded, fed, flows[source]).or_else(|| unit_mistake(demanded, fed));
+        out.extend(mistake.and_then(|mistake| edge_mistake(scope, port, source, mistake)));
     }
-    let Some(source) = feeds[port].like().filter(|source| *source != port) else { return };
-    let (demanded, fed) = (passes.descriptor(port), passes.descriptor(source));
-    let mistake = kind_mistake(demanded, fed, flows[source]).or_else(|| unit_mistake(demanded, fed));
-    out.extend(mistake.and_then(|mistake| edge_mistake(scope, port, source, mistake)));
 }
 
 /// What is wrong with a connection, in words.

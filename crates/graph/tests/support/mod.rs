@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 use tyndall_document::{Diagnostics, Source, render_text};
 use tyndall_graph::descriptor::{
-    Axis, Class, Dimension, Disabled, Extent, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor,
-    PortKind, Role, SizeRule,
+    Axis, Class, Dimension, Disabled, Extent, Format, ParamDescriptor, ParamType, ParamValue, PassDescriptor,
+    PortDescriptor, PortKind, Role, SizeRule,
 };
 use tyndall_graph::{Catalogue, Graph, Overrides, Plan, PlanOptions, plan, read, validate_with};
 
@@ -62,11 +62,22 @@ pub fn param(name: &str, default: ParamValue, range: Option<(f64, f64)>) -> Para
         name: name.into(),
         about: String::new(),
         unit: String::new(),
+        accepts: match &default {
+            ParamValue::Bool(_) => ParamType::Bool,
+            ParamValue::Integer(_) => ParamType::Integer { range },
+            ParamValue::Float(_) => ParamType::Float { range },
+            ParamValue::Vector(values) => ParamType::Vector { length: values.len(), range },
+            ParamValue::Choice(word) => ParamType::Choice { words: vec![word.clone()] },
+            ParamValue::File(_) => ParamType::File,
+        },
         default,
-        range,
-        choices: Vec::new(),
         fixed: false,
     }
+}
+
+pub fn choice(name: &str, default: &str, words: &[&str]) -> ParamDescriptor {
+    let accepts = ParamType::Choice { words: words.iter().map(|word| (*word).to_owned()).collect() };
+    ParamDescriptor { accepts, ..param(name, ParamValue::Choice(default.into()), None) }
 }
 
 pub fn pass(name: &str, ports: Vec<PortDescriptor>, params: Vec<ParamDescriptor>) -> PassDescriptor {
@@ -145,10 +156,7 @@ fn rendering() -> Vec<PassDescriptor> {
             ],
             vec![
                 ParamDescriptor { unit: "1".into(), ..param("exposure", ParamValue::Float(1.0), Some((0.0, 1000.0))) },
-                ParamDescriptor {
-                    choices: vec!["reinhard".into(), "filmic".into(), "none".into()],
-                    ..param("curve", ParamValue::Choice("none".into()), None)
-                },
+                choice("curve", "none", &["reinhard", "filmic", "none"]),
                 param("tint", ParamValue::Vector(vec![1.0; 3]), Some((0.0, 10.0))),
                 param("dither", ParamValue::Bool(false), None),
                 param("seed", ParamValue::Integer(0), None),

@@ -1,7 +1,7 @@
 //! Parameters held against members of `params` and `override`s.
 
 use tyndall_document::{Diagnostic, did_you_mean, near};
-use tyndall_graph::descriptor::{ParamDescriptor, ParamValue};
+use tyndall_graph::descriptor::{ParamDescriptor, ParamType, ParamValue};
 
 use super::Pass;
 use crate::codes;
@@ -29,7 +29,7 @@ pub fn check(pass: &Pass<'_>, out: &mut Vec<Diagnostic>) {
     for declared in &pass.descriptor.params {
         let misnamed = |param: &Param| meant(pass, param) == Some(&declared.name);
         let has = found(pass).any(|param| param.name == declared.name || misnamed(param)) || is_unused(pass, declared);
-        if !has && !matches!(declared.default, ParamValue::File(_)) {
+        if !has && declared.accepts != ParamType::File {
             out.push(missing(pass, declared));
         }
     }
@@ -64,7 +64,7 @@ fn meant<'a>(pass: &'a Pass<'_>, param: &Param) -> Option<&'a str> {
 
 fn missing(pass: &Pass<'_>, declared: &ParamDescriptor) -> Diagnostic {
     let message = format!("no shader of `{}` has its parameter `{}`", pass.descriptor.name, declared.name);
-    let ty = kinds(&declared.default).first().map_or("f32", |kind| kind.wgsl());
+    let ty = kinds(&declared.accepts).first().map_or("f32", |kind| kind.wgsl());
     let suggestion = if declared.fixed {
         format!("declare `override {}: {ty};`", declared.name)
     } else {
@@ -74,21 +74,21 @@ fn missing(pass: &Pass<'_>, declared: &ParamDescriptor) -> Diagnostic {
 }
 
 /// The types in WGSL that a parameter may have, the usual one first.
-fn kinds(value: &ParamValue) -> Vec<ParamKind> {
-    match value {
-        ParamValue::Bool(_) => vec![ParamKind::Uint, ParamKind::Bool],
-        ParamValue::Integer(_) => vec![ParamKind::Int, ParamKind::Uint],
-        ParamValue::Float(_) => vec![ParamKind::Float],
-        ParamValue::Vector(values) => vec![ParamKind::Vector(values.len() as u8)],
-        ParamValue::Choice(_) => vec![ParamKind::Uint],
-        ParamValue::File(_) => Vec::new(),
+fn kinds(accepts: &ParamType) -> Vec<ParamKind> {
+    match accepts {
+        ParamType::Bool => vec![ParamKind::Uint, ParamKind::Bool],
+        ParamType::Integer { .. } => vec![ParamKind::Int, ParamKind::Uint],
+        ParamType::Float { .. } => vec![ParamKind::Float],
+        ParamType::Vector { length, .. } => vec![ParamKind::Vector(*length as u8)],
+        ParamType::Choice { .. } => vec![ParamKind::Uint],
+        ParamType::File => Vec::new(),
     }
 }
 
 fn disagreement(declared: &ParamDescriptor, param: &Param) -> Option<Diagnostic> {
     let name = &param.name;
     let wrong = |message: String| Some(Diagnostic::error(codes::PARAM, param.place.clone(), message));
-    let allowed = kinds(&declared.default);
+    let allowed = kinds(&declared.accepts);
     if !allowed.contains(&param.kind) {
         let names: Vec<String> = allowed.iter().map(|kind| format!("`{}`", kind.wgsl())).collect();
         let (want, found) = (names.join(" or "), param.kind.wgsl());
@@ -120,9 +120,12 @@ fn same(declared: &ParamDescriptor, default: ParamDefault) -> bool {
         (ParamValue::Bool(value), ParamDefault::Integer(other)) => i64::from(*value) == other,
         (ParamValue::Integer(value), ParamDefault::Integer(other)) => *value == other,
         (ParamValue::Float(value), ParamDefault::Float(other)) => (*value as f32).to_bits() == other.to_bits(),
-        (ParamValue::Choice(word), ParamDefault::Integer(other)) => {
-            declared.choices.iter().position(|choice| choice == word).is_some_and(|index| index as i64 == other)
-        }
+        (ParamValue::Choice(word), ParamDefault::Integer(other)) => declared
+            .accepts
+            .choices()
+            .iter()
+            .position(|choice| choice == word)
+            .is_some_and(|index| index as i64 == other),
         _ => false,
     }
 }

@@ -1,8 +1,8 @@
 //! The pass that the shaders of these tests belong to.
 
 use tyndall_graph::descriptor::{
-    Class, Dimension, Disabled, Format, ParamDescriptor, ParamValue, PassDescriptor, PortDescriptor, PortKind, Role,
-    SizeRule,
+    Class, Dimension, Disabled, Format, ParamDescriptor, ParamType, ParamValue, PassDescriptor, PortDescriptor,
+    PortKind, Role, SizeRule,
 };
 
 /// Names of scene data that there are.
@@ -18,8 +18,11 @@ fn texture(dimension: Dimension, class: Class, format: Option<Format>, filtered:
 }
 
 fn param(name: &str, default: ParamValue, fixed: bool) -> ParamDescriptor {
-    let (about, unit) = (String::new(), String::new());
-    ParamDescriptor { name: name.into(), about, unit, default, range: None, choices: Vec::new(), fixed }
+    let accepts = match default {
+        ParamValue::Float(_) => ParamType::Float { range: None },
+        _ => ParamType::Integer { range: None },
+    };
+    ParamDescriptor { name: name.into(), about: String::new(), unit: String::new(), accepts, default, fixed }
 }
 
 /// Two inputs, an output, a parameter of each sort, the camera.

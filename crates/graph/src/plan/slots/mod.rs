@@ -138,12 +138,15 @@ impl<'a> Scan<'a> {
     }
 
     fn pass(&mut self, position: Handle<PlannedPass>) {
-        let wiring = self.wiring;
-        for (number, port) in wiring.passes.ports_of(self.draft.passes[position].pass) {
-            let (slot, source) = match port.role {
-                RoleKind::Output => (self.written(number), None),
-                RoleKind::InOut => self.changed(number, position),
-                RoleKind::History => (self.history(number, port), None),
+        let passes = &self.wiring.passes;
+        let pass = self.draft.passes[position].pass;
+        let (ports, latest) = (passes.ports[pass], self.ports_of_kind[passes.kind_of[pass]]);
+        for (port, signature) in passes.kind(pass).signature.ports.entries() {
+            let (number, latest) = (ports.at(port), latest.at(port));
+            let (slot, source) = match signature.role {
+                RoleKind::Output => (self.written(number, latest), None),
+                RoleKind::InOut => self.changed(number, latest, position),
+                RoleKind::History => (self.history(number, signature), None),
                 RoleKind::Input | RoleKind::Optional => self.read(number),
             };
             self.done.bindings.slots[number] = Some(slot);
@@ -164,9 +167,9 @@ impl<'a> Scan<'a> {
         }
     }
 
-    fn written(&mut self, number: Handle<GraphPort>) -> Handle<Slot> {
+    fn written(&mut self, number: Handle<GraphPort>, latest: Handle<KindPort>) -> Handle<Slot> {
         let resource = self.resource(number);
-        let class = self.class_of_output(number, resource);
+        let class = self.class_of_output(latest, resource);
         let slot = self.allocate(resource, class);
         self.hold(slot, false);
         slot
@@ -176,16 +179,17 @@ impl<'a> Scan<'a> {
     fn changed(
         &mut self,
         number: Handle<GraphPort>,
+        latest: Handle<KindPort>,
         position: Handle<PlannedPass>,
     ) -> (Handle<Slot>, Option<Handle<PlannedPort>>) {
         let (from, source) = self.read(number);
         if source.is_some_and(|source| self.may_change(source, number, position)) {
-            let class = self.class_of_output(number, self.done.slots[from].resource);
+            let class = self.class_of_output(latest, self.done.slots[from].resource);
             self.done.classes[class].ports += 1;
             self.hold(from, true);
             return (from, source);
         }
-        let to = self.written(number);
+        let to = self.written(number, latest);
         self.done.steps.push(Step::Copy { pass: position, from, to });
         (to, source)
     }
@@ -225,8 +229,7 @@ impl<'a> Scan<'a> {
     }
 
     /// The class of what an output writes.
-    fn class_of_output(&mut self, number: Handle<GraphPort>, resource: Resource) -> Handle<ClassBytes> {
-        let at = self.kind_port(number);
+    fn class_of_output(&mut self, at: Handle<KindPort>, resource: Resource) -> Handle<ClassBytes> {
         match self.latest[at].class {
             Some(class) if self.done.classes[class].resource == resource => class,
             _ => {
