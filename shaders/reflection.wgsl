@@ -97,9 +97,9 @@ fn lookup_of(axis: vec3<f32>, layer: u32, n: f32, table: texture_2d_array<f32>) 
 }
 
 // Of A.
-fn lookup_of_spot(light: Light, table: texture_2d_array<f32>) -> Lookup {
+fn lookup_of_spot(light: Light, layer: u32, table: texture_2d_array<f32>) -> Lookup {
     let width = lobe_width(light.exponent, light.cos_cutoff);
-    return Lookup(-light.direction, light.lobe, angle_axis(width, f32(textureDimensions(table).x)), 1.0);
+    return Lookup(-light.direction, layer, angle_axis(width, f32(textureDimensions(table).x)), 1.0);
 }
 
 // Rows of the table for the three channels, and how far between their depths.
@@ -144,8 +144,8 @@ struct Surface {
     phong: Lookup,              // about the mirrored view ray
 }
 
-// Radiance that leaves the surface toward the eye, W/(sr m^2), not attenuated on that way.
-fn reflected(light: Light, medium: Medium, surface: Surface, direct: bool, scattered: bool, table: texture_2d_array<f32>) -> vec3<f32> {
+// Radiance that leaves the surface toward the eye, W/(sr m^2), not attenuated on that way. `spot_layer` is that of a spot.
+fn reflected(light: Light, spot_layer: u32, medium: Medium, surface: Surface, direct: bool, scattered: bool, table: texture_2d_array<f32>) -> vec3<f32> {
     let incident = incident_light(light, surface.position);
     var sum = vec3<f32>(0.0);
     if direct {
@@ -158,7 +158,7 @@ fn reflected(light: Light, medium: Medium, surface: Surface, direct: bool, scatt
         let phong = convolution(surface.phong, incident.to_light, rows, table);
         // I sigma_s/d as a part of I/d^2; without a way, E albedo as a part of E
         let scattering = select(medium.scattering * incident.way, albedo(medium), is_sun);
-        let of_spot = convolution(lookup_of_spot(light, table), incident.to_light, rows, table);
+        let of_spot = convolution(lookup_of_spot(light, spot_layer, table), incident.to_light, rows, table);
         let all_around = select(vec3<f32>(1.0), of_spot, light.kind == SPOT);
         sum += scattering * (surface.rho / PI * lambert + surface.k_s * phong) * all_around * incident.on_axis;
     }

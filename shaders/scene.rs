@@ -26,19 +26,6 @@ pub struct Scene {
     pub casters: Vec<Caster>,
     /// Shininess of each material that has a Phong lobe, in the order of the scene.
     pub shininesses: Vec<f64>,
-    /// Lobes of surfaces and spots, each once.
-    pub cosine_lobes: Vec<CosineLobe>,
-}
-
-/// cosⁿ within a cutoff: twin of `CosineLobe`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CosineLobe {
-    /// n.
-    pub exponent: f64,
-    /// Cosine of the half-angle where a spot ends; 0 of a surface.
-    pub cos_cutoff: f64,
-    /// A spot sends it, and no surface.
-    pub is_spot: bool,
 }
 
 /// A pinhole camera: twin of `Camera`.
@@ -167,8 +154,8 @@ pub struct Material {
     pub specular: DVec3,
     /// n of the Phong lobe.
     pub shininess: f64,
-    /// Of n among the cosine lobes of the scene, from 1; 0 where k_s is 0.
-    pub lobe: u32,
+    /// Of n among the shininesses of the scene, growing, from 1; 0 where k_s is 0.
+    pub shininess_rank: u32,
     /// Index into the textures; its colour multiplies `diffuse`.
     pub texture: Option<usize>,
 }

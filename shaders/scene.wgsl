@@ -1,5 +1,5 @@
-// Scene data as passes see it: one buffer each, encoded on the CPU by the scene crate, which a test holds against the
-// member offsets of this file.
+// Scene data as passes see it: one buffer each, encoded on the CPU by the scene crate, against whose structs every shader
+// that reads it is held.
 //
 // World space is right-handed with +y up, in metres; colours are linear RGB. A pass declares what it reads by name:
 //
@@ -8,12 +8,10 @@
 //     var<uniform> phase: Phase;              var<storage, read> objects: Objects;
 //     var<uniform> background: Background;    var<storage, read> materials: Materials;
 //     var<storage, read> lights: Lights;      var<storage, read> textures: Textures;
-//     var<storage, read> texels: Texels;      var<storage, read> cosine_lobes: CosineLobes;
-//     var<uniform> ambient: Ambient;
+//     var<storage, read> texels: Texels;      var<uniform> ambient: Ambient;
 //     var<uniform> height_fog: HeightFog;     var<storage, read> phase_table: PhaseTable; (declared in phase.wgsl)
-//     var<storage, read> shadow_lights: ShadowLights;        var<storage, read> shadow_slices: ShadowSlices;
-//     var<storage, read> shadow_crossings: ShadowCrossings;  var<storage, read> shadow_edges: ShadowEdges;
-//     var<storage, read> occluder_nodes: OccluderNodes;      var<storage, read> occluder_corners: OccluderCorners;
+//
+// Plugins bring others, and declare their structs in their own files.
 //
 // A list is a count, padding to 16 bytes, and at least one element, zeroed where the list is empty. The count of a list is
 // also known to the pipeline where a shader declares `override NAME_count: u32;`.
@@ -105,8 +103,8 @@ struct Light {
     exponent: f32,              // N of a spot's cos^N
     cos_cutoff: f32,            // cosine of a spot's half-angle
     sin_cutoff: f32,            // and its sine, which the cosine of a narrow cone does not hold in f32
-    lobe: u32,                  // of a spot, or of the most alike, among the cosine lobes, from 1; else 0
     pad0: u32,
+    pad1: u32,
 }
 
 struct Lights {
@@ -163,7 +161,7 @@ struct Material {
     texture: u32,               // index into the textures, its colour multiplies diffuse; NO_TEXTURE for none
     specular: vec3<f32>,        // k_s of the Phong lobe
     shininess: f32,             // n of the Phong lobe
-    lobe: u32,                  // of n, or of the nearest value, among the cosine lobes, from 1; 0 where k_s is 0
+    shininess_rank: u32,        // of n among the shininesses of the scene, growing, from 1; 0 where k_s is 0
     pad0: u32,
     pad1: u32,
     pad2: u32,
@@ -175,25 +173,6 @@ struct Materials {
     pad1: u32,
     pad2: u32,
     items: array<Material>,
-}
-
-// cos^n within a cutoff: what a Phong surface reflects and what a spot sends.
-struct CosineLobe {
-    exponent: f32,              // n
-    cos_cutoff: f32,            // 0 or less where n = 0 only
-    is_spot: u32,               // 0 or 1
-    pad0: u32,
-}
-
-// The lobes of the materials and spots of the scene, each once: tables of scattered light are made of this alone, not of
-// where the lights are or what colour anything has. At most COSINE_LOBES_MAX of the encoder, which says what is done with
-// more.
-struct CosineLobes {
-    count: u32,
-    pad0: u32,
-    pad1: u32,
-    pad2: u32,
-    items: array<CosineLobe>,
 }
 
 // Values of two bits of Texture.wrap: what a coordinate outside 0..1 reads.
@@ -219,100 +198,4 @@ struct Textures {
 // RGBA, 8 bits each, the first in the lowest bits, sRGB.
 struct Texels {
     items: array<u32>,
-}
-
-// Where the casters' silhouettes hide a light from view rays; worked out for the passes that read it, see shadows.wgsl.
-//
-// The frame of a light has the eye at its origin, z along the axis from the light to the eye, x and y across it. Its
-// nearness kappa is 1/distance of the light from the eye, and 0 of a Directional. At a distance r from the axis a point
-// is in the direction n/r as the light sees it, n = 1 + kappa z: that falls along every view ray.
-struct ShadowLight {
-    across: vec3<f32>,          // unit vector, world: x
-    nearness: f32,              // kappa, 1/m
-    upward: vec3<f32>,          // unit vector, world: y
-    depth_at_eye: i32,          // triangles between the light and the eye, without those that touch it
-    axis: vec3<f32>,            // unit vector, world: z
-    first_bin: u32,             // among the slices
-    bins: u32,                  // equal parts of the turn about the axis; 0 where there is no light
-    pad0: u32,
-    pad1: u32,
-    pad2: u32,
-}
-
-// One for each light of the scene.
-struct ShadowLights {
-    count: u32,
-    pad0: u32,
-    pad1: u32,
-    pad2: u32,
-    items: array<ShadowLight>,
-}
-
-// For each light: for each of its bins the number of its first slice, times 2^16, and how many slices it has, which are
-// equal parts of it; then for each slice where its crossings begin, and one more for the end of the last.
-struct ShadowSlices {
-    count: u32,
-    pad0: u32,
-    pad1: u32,
-    pad2: u32,
-    items: array<u32>,
-}
-
-// An edge in a slice, in the order of `nearest`, from the axis outward.
-struct ShadowCrossing {
-    nearest: f32,               // n/r of its points in the slice at most, 1/m
-    edge: u32,                  // among the edges
-}
-
-struct ShadowCrossings {
-    count: u32,
-    pad0: u32,
-    pad1: u32,
-    pad2: u32,
-    items: array<ShadowCrossing>,
-}
-
-// Of a silhouette, or of a triangle that touches the eye; it runs counter-clockwise about the axis.
-struct ShadowEdge {
-    a: vec3<f32>,               // m, frame of the light
-    step: i32,                  // triangles beyond it less those before it, as the light sees it; at the eye the other way round
-    b: vec3<f32>,
-    away: f32,                  // of a triangle that touches the eye: z where the axis meets its plane, m, below 0 if the eye is behind; else 0
-}
-
-struct ShadowEdges {
-    count: u32,
-    pad0: u32,
-    pad1: u32,
-    pad2: u32,
-    items: array<ShadowEdge>,
-}
-
-// A box of triangles that cast shadows, in a hierarchy; see occluders.wgsl.
-struct OccluderNode {
-    low: vec3<f32>,             // m, world
-    first: u32,                 // triangle below it: its corners are 3 first and the two after it
-    high: vec3<f32>,
-    triangles: u32,             // of a leaf their number, 4 at most; else 0, and the next node is the first below it
-    skip: u32,                  // the node that follows all below it
-    pad0: u32,
-    pad1: u32,
-    pad2: u32,
-}
-
-struct OccluderNodes {
-    count: u32,
-    pad0: u32,
-    pad1: u32,
-    pad2: u32,
-    items: array<OccluderNode>,
-}
-
-// Three for each triangle, world, m; w is 0.
-struct OccluderCorners {
-    count: u32,
-    pad0: u32,
-    pad1: u32,
-    pad2: u32,
-    items: array<vec4<f32>>,
 }

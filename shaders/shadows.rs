@@ -1,4 +1,5 @@
-//! The parts of a ray that a light reaches, by brute force: twin of `shadows.wgsl`, and independent of silhouettes.
+//! The parts of a ray that a light reaches, by brute force and independent of silhouettes: what shadows are held against,
+//! `shadows.wgsl` of `shadow_planes` and `occluders.wgsl` of `march`.
 //!
 //! The shadow of a triangle is convex: the space behind it within the pyramid from the light. So each triangle shadows one
 //! interval of a ray, and what is left of the ray beside all intervals is lit.

@@ -116,6 +116,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let uv = (1.0 - u - v) * vec2(va.u, va.v) + u * vec2(vb.u, vb.v) + v * vec2(vc.u, vc.v);
     textureStore(depth, id.xy, vec4(t));
     textureStore(normal, id.xy, vec4(n, 1.0));
-    textureStore(material, id.xy, 0, vec4(m.diffuse * base_color(m.texture, uv), f32(m.lobe)));
+    textureStore(material, id.xy, 0, vec4(m.diffuse * base_color(m.texture, uv), f32(m.shininess_rank)));
     textureStore(material, id.xy, 1, vec4(m.specular, m.shininess));
 }

@@ -16,9 +16,9 @@
 #import cone
 #import airlight_pieces
 #import light_sum
-#import occluders
 #import shadow_map
 #import unfinished
+#import "occluders.wgsl"
 
 // Optical depth along the ray, of the channel of least extinction, at which the march ends.
 const MARCH_DEPTH: f32 = 16.0;

@@ -3,6 +3,7 @@
 #import scene
 #import shadow_map
 #import unfinished
+#import "occluder_data.wgsl"
 
 struct Params {
     size: u32,
@@ -10,8 +11,6 @@ struct Params {
 
 var<uniform> params: Params;
 var<storage, read> lights: Lights;
-var<storage, read> occluder_nodes: OccluderNodes;
-var<storage, read> occluder_corners: OccluderCorners;
 var distances: texture_storage_2d_array<r32float, write>;
 
 // Where nothing is met, m.

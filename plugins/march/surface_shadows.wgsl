@@ -3,8 +3,8 @@
 #import ray
 #import lights
 #import every_light
-#import occluders
 #import unfinished
+#import "occluders.wgsl"
 
 // Part of the way at which it is asked: before the surface, so that it does not hide itself from what it faces.
 const BEFORE_SURFACE: f32 = 0.9999;

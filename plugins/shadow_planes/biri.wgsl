@@ -15,8 +15,8 @@
 #import airlight
 #import lights
 #import every_light
-#import shadows
 #import unfinished
+#import "shadows.wgsl"
 
 override nodes: u32 = 12;
 override stencil: bool = true;

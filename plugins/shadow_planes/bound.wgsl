@@ -4,7 +4,7 @@
 // Where it may, the ray is summed as if it had no shadow as well, and is no brighter. Few rays need that: first four nodes
 // say what the longest dark part takes, and mostly it is more than any error. (Summed anew were all rays with a shadow, the
 // pass would take 1.4 to 1.7 times as long in a scene of a box.)
-#import shadows
+#import "shadows.wgsl"
 
 // What is summed of a light: its lit parts, then the longest dark part, then the ray as if it had no shadow.
 const LIT: u32 = 0u;

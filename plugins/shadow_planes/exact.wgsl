@@ -1,11 +1,11 @@
-// Airlight of every light of the scene where the light reaches: see shaders/shadows.wgsl and shaders/airlight.wgsl.
+// Airlight of every light of the scene where the light reaches: see shadows.wgsl and shaders/airlight.wgsl.
 #import scene
 #import ray
 #import airlight
 #import lights
 #import every_light
-#import shadows
 #import unfinished
+#import "shadows.wgsl"
 #import "few_nodes.wgsl"
 #import "bound.wgsl"
 

@@ -12,11 +12,11 @@
 // x = 1 - cos(gamma - theta) + 2 sin(gamma) sin(theta) sin^2(phi/2).
 #import scene
 #import reflection
+#import "lobe_data.wgsl"
 
 // The largest shininess that zonal coefficients are used for.
 const ZONAL_MOST: f32 = 30.0;
 
-var<storage, read> cosine_lobes: CosineLobes;
 var glow: texture_2d<f32>;
 var coefficients: texture_2d<f32>;
 var table: texture_storage_2d_array<rgba32float, write>;

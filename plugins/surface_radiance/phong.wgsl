@@ -5,6 +5,7 @@
 #import lights
 #import light_sum
 #import reflection
+#import "lobe_data.wgsl"
 
 override direct: bool = true;
 override scattered: bool = true;
@@ -24,7 +25,8 @@ struct Receiver {
 }
 
 fn received(light: Light, index: u32, receiver: Receiver) -> vec3<f32> {
-    return reflected(light, medium, receiver.surface, direct && has_light(receiver.lit, index), scattered, table);
+    let is_lit = direct && has_light(receiver.lit, index);
+    return reflected(light, spot_layers.items[index], medium, receiver.surface, is_lit, scattered, table);
 }
 
 @compute @workgroup_size(8, 8)
@@ -35,9 +37,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let toward_eye = normal_toward_eye(textureLoad(normal, id.xy, 0).xyz, ray.direction);
     let lambert = textureLoad(material, id.xy, 0, 0);
     let phong = textureLoad(material, id.xy, 1, 0);
+    let phong_layer = shininess_layers.items[min(u32(lambert.w), shininess_layers.count - 1u)];
     let surface = Surface(ray.origin + min(way, ENDLESS) * ray.direction, lambert.xyz, phong.xyz, phong.w,
         lookup_of(toward_eye, 0u, 1.0, table),
-        lookup_of(reflect(ray.direction, toward_eye), u32(lambert.w), phong.w, table));
+        lookup_of(reflect(ray.direction, toward_eye), phong_layer, phong.w, table));
     let sum = received_of_all(Receiver(surface, textureLoad(lit, id.xy, 0)));
     if all(id.xy < size) {
         let found = select(vec3<f32>(0.0), sum * transmittance(medium, way), way < ENDLESS);

@@ -15,13 +15,14 @@ use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Arc;
 use std::time::Instant;
 
 use glam::DVec3;
 use rayon::prelude::*;
 use tyndall_compare::{Point, Unit, curves};
 use tyndall_plugin::each_texel;
-use tyndall_scene::{SCENE_DATA, Scene};
+use tyndall_scene::{Extensions, Scene};
 use tyndall_shaders::airlight::airlight;
 use tyndall_shaders::lights::incident;
 use tyndall_shaders::medium::transmittance;
@@ -39,6 +40,12 @@ const TIMED_STEPS: u32 = 64;
 /// What the project promises of the planes, at the 95th percentile.
 const PROMISED: f64 = 5e-3;
 const ROUNDS: usize = 3;
+
+/// What the shipped plugins add to scenes.
+fn extensions() -> Arc<Extensions> {
+    let plugins = tyndall::shipped().iter().map(|plugin| plugin()).collect();
+    tyndall_render::registry(plugins, &[]).unwrap().extensions().clone()
+}
 
 fn main() {
     let size = std::env::args().skip(1).find_map(|argument| {
@@ -207,7 +214,7 @@ impl Bench {
     }
 
     fn load(&self) -> Scene {
-        Scene::load(&self.path("bench.scene.ron"), &Vec::new()).unwrap().0
+        Scene::load(&self.path("bench.scene.ron"), &Vec::new(), &extensions()).unwrap().0
     }
 
     /// Every pixel of the small picture.
@@ -249,7 +256,7 @@ impl Bench {
             })
             .collect();
         moved.sort_by(f64::total_cmp);
-        let bytes: usize = SCENE_DATA.iter().filter(|name| reads(name)).map(|name| encoded.bytes(name).len()).sum();
+        let bytes: usize = encoded.items.iter().map(|(_, bytes)| bytes.len()).sum();
         (first, moved[ROUNDS / 2], bytes as f64 / f64::from(1 << 20))
     }
 

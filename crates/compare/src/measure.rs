@@ -10,7 +10,7 @@ use tyndall_graph::{Handle, Plan, PlannedPass, Slot};
 use tyndall_image::metrics::median;
 use tyndall_plugin::Registry;
 use tyndall_render::{Error, Running};
-use tyndall_scene::{SCENE_DATA, Scene};
+use tyndall_scene::{Part, Scene, SceneData};
 
 use crate::prepare::PreparedMethod;
 
@@ -49,9 +49,6 @@ pub(crate) struct Cost {
     /// Bytes computed once.
     pub set_up_bytes: u64,
 }
-
-/// Scene data derived from casters: those that follow the eye, and those that are kept.
-const CASTERS: [(&str, bool); 2] = [("shadow_", true), ("occluder_", false)];
 
 impl<'p> Measured<'p> {
     /// Makes the method ready and draws a first frame, so that no later one waits for a compiler.
@@ -106,25 +103,24 @@ impl<'p> Measured<'p> {
         Ok(())
     }
 
-    /// Times the data derived from casters: the whole encoding, less that of all other data.
+    /// Times what plugins work out of casters.
     fn time_scene(&mut self) {
         let plan = self.running.executor.plan();
-        let of_casters = |name: &str| CASTERS.iter().any(|(start, _)| name.starts_with(start));
-        let reads = |name: &str| plan.reads(name) && of_casters(name);
-        let Some(scene) = self.scene.filter(|_| SCENE_DATA.iter().any(|name| reads(name))) else { return };
-        let aspect = f64::from(plan.size.0) / f64::from(plan.size.1);
-        let timed = |reads: &dyn Fn(&str) -> bool| {
-            let start = Instant::now();
-            let encoded = scene.encode_for(0.0, aspect, reads);
-            (start.elapsed().as_secs_f64() * 1e6, encoded)
-        };
-        let ((rest, _), (all, encoded)) = (timed(&|_| false), timed(&reads));
-        self.scene_us.push((all - rest).max(0.0));
+        let Some(scene) = self.scene else { return };
+        let is_read =
+            |data: &&SceneData| data.is_made_from(Part::Geometry) && data.names().any(|name| plan.reads(name));
+        let of_casters: Vec<&SceneData> = scene.extensions().plugin_data().filter(is_read).collect();
+        if of_casters.is_empty() {
+            return;
+        }
+        let reads = |name: &str| of_casters.iter().any(|data| data.names().any(|own| own == name));
+        let start = Instant::now();
+        let encoded = scene.encode_for(0.0, f64::from(plan.size.0) / f64::from(plan.size.1), &reads);
+        self.scene_us.push(start.elapsed().as_secs_f64() * 1e6);
         let bytes = |follows_eye: bool| {
-            let names = encoded.items.iter().filter(|(name, _)| {
-                CASTERS.iter().any(|(start, follows)| name.starts_with(start) && *follows == follows_eye && reads(name))
-            });
-            names.map(|(_, bytes)| bytes.len() as u64).sum()
+            let data = of_casters.iter().filter(|data| data.is_made_from(Part::Camera) == follows_eye);
+            let names = data.flat_map(|data| data.names()).filter(|name| plan.reads(name));
+            names.map(|name| encoded.bytes(name).len() as u64).sum()
         };
         self.scene_bytes = (bytes(false), bytes(true));
     }

@@ -1,13 +1,14 @@
 //! From a comparison file to checked scenes and planned graphs, without a GPU.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use tyndall_document::{Diagnostic, Diagnostics, Place, Source};
 use tyndall_graph::descriptor::Dimension;
 use tyndall_graph::{Keep, Plan, PlanOptions, Resource, Roots};
 use tyndall_plugin::Registry;
 use tyndall_render::{Loaded, Request};
-use tyndall_scene::{Override, Scene};
+use tyndall_scene::{Extensions, Override, Part, Scene, SceneData};
 
 use crate::codes::{NO_TRUTH, SCENE_OF_METHOD, WRONG_PICTURE};
 use crate::file::{CompareFile, Entry, Setting};
@@ -41,7 +42,7 @@ pub fn prepare<'f>(file: &'f CompareFile, registry: &Registry, out: &mut Diagnos
     let mut scenes = Vec::new();
     for entry in &file.scenes {
         let mut found = Diagnostics::default();
-        let own = own_scene(entry, &mut found);
+        let own = own_scene(entry, registry.extensions(), &mut found);
         if own.as_ref().is_some_and(Scene::has_height_fog) {
             let place = file.source.place(entry.name_span);
             let mistake = Diagnostic::error(NO_TRUTH, place, "no truth can be computed for height fog");
@@ -59,14 +60,14 @@ pub fn prepare<'f>(file: &'f CompareFile, registry: &Registry, out: &mut Diagnos
 }
 
 /// The scene as its entry changes it, for the truth.
-fn own_scene(entry: &Entry, out: &mut Diagnostics) -> Option<Scene> {
+fn own_scene(entry: &Entry, extensions: &Arc<Extensions>, out: &mut Diagnostics) -> Option<Scene> {
     let mut overrides = tyndall_scene::Overrides::new();
     for Setting { text, .. } in &entry.settings {
         if let Some((path, value)) = text.strip_prefix("scene.").and_then(|rest| rest.split_once('=')) {
             overrides.extend(Override::read(path.trim(), value, &argument(text), out));
         }
     }
-    match Scene::load(&entry.path, &overrides) {
+    match Scene::load(&entry.path, &overrides, extensions) {
         Ok((scene, warnings)) => {
             out.extend(warnings);
             Some(scene)
@@ -126,13 +127,10 @@ fn method<'f>(
 fn plan(file: &CompareFile, loaded: &Loaded, roots: Roots, out: &mut Diagnostics) -> Option<Plan> {
     let mut options = PlanOptions::new(loaded.graph.size);
     options.roots = roots;
-    // What shadows are computed from follows the eye.
-    let mut moving = vec!["camera", "shadow_lights", "shadow_slices", "shadow_crossings", "shadow_edges"];
-    if !file.shadows {
-        moving.push("lights");
-    }
-    let moving = moving.into_iter();
-    let animated = moving.map(str::to_owned).collect();
+    let moves =
+        |data: &&SceneData| data.is_made_from(Part::Camera) || (!file.shadows && data.is_made_from(Part::Lights));
+    let moving = loaded.scene.iter().flat_map(|scene| scene.extensions().data()).filter(moves);
+    let animated = moving.flat_map(SceneData::names).map(str::to_owned).collect();
     options.keep = Keep::Edges { live: BTreeSet::new(), animated };
     tyndall_graph::plan(&loaded.graph, &options).map_err(|mistakes| out.extend(mistakes)).ok()
 }

@@ -92,7 +92,7 @@ fn the_truth_of_surfaces() {
             lights: [Point(position: (0, 0, {z}), intensity: (8, 8, 8))])"
         );
         let source = Source::new("wall.scene.ron", text);
-        let (scene, _) = Scene::from_source(&source, Path::new(""), &Vec::new()).unwrap();
+        let (scene, _) = Scene::from_source(&source, Path::new(""), &Vec::new(), &Arc::default()).unwrap();
         let twin = scene.twin(0.0, 1.0);
         let seen = Seen { scene: &twin, geometry: &wall, casters: None };
         Truth::new(Output::Surface, seen, size, &|| ()).pixels[0].to_array()
@@ -163,7 +163,7 @@ fn the_truth_with_shadows_agrees_with_reference_data() {
     let sums: serde_json::Value = serde_json::from_str(&sums).unwrap();
     let size = (160, 120);
     for name in ["box", "sphere", "box_sphere"] {
-        let (scene, _) = Scene::load(&folder.join(format!("{name}.scene.ron")), &Vec::new()).unwrap();
+        let (scene, _) = Scene::load(&folder.join(format!("{name}.scene.ron")), &Vec::new(), &Arc::default()).unwrap();
         let (twin, casters) = (scene.twin(0.0, 4.0 / 3.0), Casters::new(&scene));
         let geometry = met(&scene, &twin, size);
         let truth =
@@ -193,7 +193,7 @@ fn the_truth_with_shadows_agrees_with_reference_data() {
 /// Errors of the truth of a scene without surfaces, at the pixels that the reference has (see `tests/reference/README.md`).
 fn truth_errors(name: &str) -> Percentiles {
     let folder = Path::new("../app/tests/reference");
-    let (scene, _) = Scene::load(&folder.join(format!("{name}.scene.ron")), &Vec::new()).unwrap();
+    let (scene, _) = Scene::load(&folder.join(format!("{name}.scene.ron")), &Vec::new(), &Arc::default()).unwrap();
     let size = (160, 120);
     let (twin, geometry) = (scene.twin(0.0, 4.0 / 3.0), nothing_met(size));
     let seen = Seen { scene: &twin, geometry: &geometry, casters: None };

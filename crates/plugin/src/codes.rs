@@ -15,6 +15,10 @@ codes! {
     BAD_PORT = "bad-port";
     /// A manifest says something of a parameter that the shader contradicts, or leaves open what must be said.
     BAD_PARAM = "bad-param";
+    /// A variable of scene data whose type is laid out in another way than the data.
+    SCENE_LAYOUT = "scene-layout";
+    /// Two plugins add the same thing to scenes.
+    SCENE_CLASH = "scene-clash";
     /// A descriptor that contradicts itself.
     BAD_DESCRIPTOR = "bad-descriptor";
     /// A plugin folder or a search path that cannot be read.

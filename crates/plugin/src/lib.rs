@@ -12,6 +12,7 @@ pub mod codes;
 mod dispatch;
 mod folder;
 mod found;
+mod layout;
 mod limits;
 mod linker;
 mod manifest;
@@ -24,7 +25,7 @@ mod search;
 
 pub use codes::CODES;
 pub use folder::{Folder, Origin};
-pub use limits::{Limit, SceneFeature};
+pub use limits::Limit;
 pub use manifest::Version;
 pub use pass::{Plugin, RustPass, Shaders};
 pub use ports::Need;
@@ -35,3 +36,6 @@ pub use search::{SearchPath, find_folders, shader_modules};
 // What a pass in Rust needs, under one roof.
 pub use tyndall_gpu::{GpuError, Kernel, Numbers, PortData, Program, Raster, RasterTargets, Recorder, Setup, wgpu};
 pub use tyndall_graph::{Handle, Resource, Table, descriptor};
+
+// What scene data and scene fields need.
+pub use tyndall_scene as scene;

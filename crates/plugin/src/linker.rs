@@ -6,11 +6,13 @@ use std::sync::Arc;
 use tyndall_document::{Diagnostic, Diagnostics, Place};
 use tyndall_graph::descriptor::{PRESET, PassDescriptor};
 use tyndall_graph::{DescriptorError, Digest, Kind};
+use tyndall_scene::Extensions;
 use tyndall_shader::{Library, check_all, link};
 
 use crate::codes::{BAD_DESCRIPTOR, BAD_PORT, MISSING_SHADER};
 use crate::dispatch::{self, Over};
 use crate::folder::Folder;
+use crate::layout;
 use crate::limits::Limit;
 use crate::manifest::{Manifest, ManifestPass};
 use crate::pass::{MakeProgram, RustPass, Shaders};
@@ -33,7 +35,8 @@ pub(crate) struct Linker {
     pub folder: Folder,
     /// What its shaders may import.
     pub library: Library,
-    pub scene_names: Vec<String>,
+    /// What its shaders may read of scenes.
+    pub extensions: Arc<Extensions>,
     /// By pass.
     pub references: BTreeMap<String, Reference>,
     /// Of the manifest, and so of every pass.
@@ -47,6 +50,7 @@ struct Candidate {
     make: Make,
     needs: Vec<Need>,
     limits: Vec<Limit>,
+    refuses: Vec<Limit>,
 }
 
 impl Linker {
@@ -63,7 +67,14 @@ impl Linker {
         self.pass(&place, |out| {
             let shaders = self.shaders(&pass.shaders, &place, out)?;
             let make = Make::Rust(Arc::from(pass.make));
-            Some(Candidate { descriptor: pass.descriptor, shaders, make, needs: Vec::new(), limits: Vec::new() })
+            Some(Candidate {
+                descriptor: pass.descriptor,
+                shaders,
+                make,
+                needs: Vec::new(),
+                limits: Vec::new(),
+                refuses: Vec::new(),
+            })
         })
     }
 
@@ -92,7 +103,8 @@ impl Linker {
         let shaders = self.shaders(&[pass.shader.as_str()], &source.place(pass.shader_span), out)?;
         let linked = shaders.0.get(&pass.shader)?;
         let before = out.len();
-        let descriptor = ports::descriptor(&self.manifest.name, pass, source, linked, &self.scene_names(), out);
+        let descriptor =
+            ports::descriptor(&self.manifest.name, pass, source, linked, &self.extensions.data_names(), out);
         if out.len() > before {
             return None;
         }
@@ -111,7 +123,8 @@ impl Linker {
             return None;
         };
         let make = Make::Dispatch { file: pass.shader.clone(), over };
-        Some(Candidate { descriptor, shaders, make, needs: ports::needs(pass), limits: pass.limits.clone() })
+        let (limits, refuses) = (pass.limits.clone(), pass.refuses.clone());
+        Some(Candidate { descriptor, shaders, make, needs: ports::needs(pass), limits, refuses })
     }
 
     fn shaders(&self, files: &[&str], place: &Place, out: &mut Diagnostics) -> Option<Shaders> {
@@ -136,12 +149,13 @@ impl Linker {
 
     /// Holds a pass against its shaders.
     fn checked(&self, candidate: Candidate, place: &Place, out: &mut Diagnostics) -> Option<RegistryPass> {
-        let Candidate { descriptor, shaders, make, needs, limits } = candidate;
+        let Candidate { descriptor, shaders, make, needs, limits, refuses } = candidate;
         let linked: Vec<_> = shaders.0.values().map(AsRef::as_ref).collect();
         if !linked.is_empty() {
             let mut built = descriptor.clone();
             built.params.retain(|param| param.name != PRESET || built.presets.is_empty());
-            let problems = check_all(&linked, &built, &self.scene_names(), &[]);
+            let mut problems = check_all(&linked, &built, &self.extensions.data_names(), &[]);
+            problems.extend(linked.iter().flat_map(|linked| layout::check(linked, &self.extensions)));
             if !problems.is_empty() {
                 out.extend(problems);
                 return None;
@@ -163,6 +177,7 @@ impl Linker {
             origin: self.folder.origin.clone(),
             needs,
             limits,
+            refuses,
             fingerprint: fingerprint(&shaders, &make),
             reference: self.references.get(&descriptor.name).copied(),
             descriptor,
@@ -170,10 +185,6 @@ impl Linker {
             shaders,
             make,
         })
-    }
-
-    fn scene_names(&self) -> Vec<&str> {
-        self.scene_names.iter().map(String::as_str).collect()
     }
 }
 

@@ -4,6 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use tyndall_document::{BAD_VERSION, Decoder, Diagnostic, Diagnostics, Fields, Node, Source, Span, Value, parse};
+use tyndall_scene::{Extensions, Feature};
 
 use crate::codes::BAD_PLUGIN_NAME;
 use crate::dispatch::Over;
@@ -54,6 +55,7 @@ pub(crate) struct ManifestPass {
     pub shader_span: Span,
     pub over: Option<(Over, Span)>,
     pub limits: Vec<Limit>,
+    pub refuses: Vec<Limit>,
     pub ports: Vec<Entry>,
     pub params: Vec<Entry>,
     pub presets: Vec<Entry>,
@@ -67,21 +69,31 @@ pub(crate) struct Entry {
 }
 
 /// Reads a manifest, and the plugin's name also where the rest cannot be read; every mistake goes to `out`.
-pub(crate) fn read(source: &Arc<Source>, out: &mut Diagnostics) -> (Option<String>, Option<Manifest>) {
+pub(crate) fn read(
+    source: &Arc<Source>,
+    extensions: &Extensions,
+    out: &mut Diagnostics,
+) -> (Option<String>, Option<Manifest>) {
     let root = parse(source, out);
     let mut decoder = Decoder::new(source, out);
     let fields =
         root.as_ref().and_then(|root| decoder.fields(root, "a plugin", &["name", "version", "about", "passes"]));
     let Some(fields) = fields else { return (None, None) };
     let name = fields.required(&mut decoder, "name").and_then(|node| name(&mut decoder, node));
-    (name.clone(), manifest(&mut decoder, &fields, name))
+    let features = extensions.features(name.as_deref().unwrap_or_default());
+    (name.clone(), manifest(&mut decoder, &fields, name, &features))
 }
 
-fn manifest(decoder: &mut Decoder<'_>, fields: &Fields<'_>, name: Option<String>) -> Option<Manifest> {
+fn manifest(
+    decoder: &mut Decoder<'_>,
+    fields: &Fields<'_>,
+    name: Option<String>,
+    features: &[Feature],
+) -> Option<Manifest> {
     let version = fields.required(decoder, "version").and_then(|node| version(decoder, node));
     let about = fields.required(decoder, "about").and_then(|node| decoder.text(node)).map(str::to_owned);
     let entries = entries(decoder, fields.get("passes"));
-    let passes = entries.into_iter().filter_map(|entry| pass(decoder, entry)).collect();
+    let passes = entries.into_iter().filter_map(|entry| pass(decoder, entry, features)).collect();
     Some(Manifest { source: decoder.source.clone(), name: name?, version: version?, about: about?, passes })
 }
 
@@ -101,8 +113,8 @@ fn version(decoder: &mut Decoder<'_>, node: &Node) -> Option<Version> {
     version
 }
 
-fn pass(decoder: &mut Decoder<'_>, entry: Entry) -> Option<ManifestPass> {
-    let known = ["about", "source", "shader", "dispatch", "limits", "ports", "params", "presets"];
+fn pass(decoder: &mut Decoder<'_>, entry: Entry, features: &[Feature]) -> Option<ManifestPass> {
+    let known = ["about", "source", "shader", "dispatch", "limits", "refuses", "ports", "params", "presets"];
     let fields = decoder.fields(&entry.value, "a pass", &known)?;
     let text = |decoder: &mut Decoder<'_>, name: &str| {
         fields.get(name).and_then(|node| decoder.text(node)).unwrap_or_default().to_owned()
@@ -114,7 +126,8 @@ fn pass(decoder: &mut Decoder<'_>, entry: Entry) -> Option<ManifestPass> {
     let shader = shader.and_then(|node| decoder.text(node)).map(str::to_owned);
     let over = fields.get("dispatch").and_then(|node| Some((over(decoder, node)?, node.span)));
     let origin = text(decoder, "source");
-    let limits = fields.get("limits").map(|node| limits::limits(decoder, node)).unwrap_or_default();
+    let mut limits = |name| fields.get(name).map(|node| limits::limits(decoder, node, features)).unwrap_or_default();
+    let (limits, refuses) = (limits("limits"), limits("refuses"));
     let ports = entries(decoder, fields.get("ports"));
     let params = entries(decoder, fields.get("params"));
     let presets = entries(decoder, fields.get("presets"));
@@ -128,6 +141,7 @@ fn pass(decoder: &mut Decoder<'_>, entry: Entry) -> Option<ManifestPass> {
         shader_span,
         over,
         limits,
+        refuses,
         ports,
         params,
         presets,

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use tyndall_gpu::{GpuError, Program, Setup};
 use tyndall_graph::descriptor::PassDescriptor;
+use tyndall_scene::{Extension, Feature, FieldValue, HoldsFields, Refusal, Scene, SceneData, SceneField};
 use tyndall_shader::Linked;
 
 use crate::folder::Folder;
@@ -17,18 +18,48 @@ pub struct Plugin {
     pub(crate) folder: Folder,
     pub(crate) passes: Vec<RustPass>,
     pub(crate) references: Vec<(String, Reference)>,
+    pub(crate) extension: Extension,
 }
 
 impl Plugin {
     /// A plugin without passes in Rust.
     pub fn new(name: &str, folder: Folder) -> Self {
-        Self { name: name.to_owned(), folder, passes: Vec::new(), references: Vec::new() }
+        let (passes, references, extension) = (Vec::new(), Vec::new(), Extension::default());
+        Self { name: name.to_owned(), folder, passes, references, extension }
     }
 
     /// Adds a pass in Rust.
     #[must_use]
     pub fn pass(mut self, pass: RustPass) -> Self {
         self.passes.push(pass);
+        self
+    }
+
+    /// Adds scene data, which any pass may read by name.
+    #[must_use]
+    pub fn scene_data(mut self, data: SceneData) -> Self {
+        self.extension.add_data(data);
+        self
+    }
+
+    /// Adds a field of the scene file.
+    #[must_use]
+    pub fn scene_field<H: HoldsFields, T: FieldValue>(mut self, field: &SceneField<H, T>) -> Self {
+        self.extension.add_field(field);
+        self
+    }
+
+    /// Adds something that a scene can have, which `limits` and `refuses` of manifests can name.
+    #[must_use]
+    pub fn scene_feature(mut self, name: &'static str, is_in: fn(&Scene) -> bool) -> Self {
+        self.extension.add_feature(Feature { name, is_in });
+        self
+    }
+
+    /// Adds scene data that others are wrong without, in some scenes.
+    #[must_use]
+    pub fn scene_refusal(mut self, refusal: Refusal) -> Self {
+        self.extension.add_refusal(refusal);
         self
     }
 

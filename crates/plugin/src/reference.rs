@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use tyndall_gpu::{Numbers, PortData};
 use tyndall_graph::Resource;
 use tyndall_graph::descriptor::ParamValue;
+use tyndall_scene::Moment;
 use tyndall_shaders::ray::{Ray, ray_of_pixel};
 use tyndall_shaders::scene::{Scene, Surfaces};
 
@@ -29,6 +30,8 @@ pub struct ReferenceInput<'a> {
     pub params: BTreeMap<&'a str, ParamValue>,
     /// The scene in this frame; `None` where the graph has none.
     pub scene: Option<&'a Scene>,
+    /// The same as scene data are made from it, with the fields that plugins bring.
+    pub moment: Option<&'a Moment<'a>>,
     /// The triangles of the scene in this frame; `None` where the pass reads none.
     pub surfaces: Option<&'a Surfaces>,
 }
@@ -117,6 +120,14 @@ impl ReferenceInput<'_> {
     /// Where there is none.
     pub fn scene(&self) -> Result<&Scene, String> {
         self.scene.ok_or_else(|| "the graph has no scene".to_owned())
+    }
+
+    /// The scene as scene data are made from it.
+    ///
+    /// # Errors
+    /// Where there is none.
+    pub fn moment(&self) -> Result<&Moment<'_>, String> {
+        self.moment.ok_or_else(|| "the graph has no scene".to_owned())
     }
 
     /// The triangles of the scene.

@@ -3,12 +3,14 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock};
 
-use tyndall_document::{Diagnostics, near};
+use tyndall_document::{Diagnostic, Diagnostics, near};
 use tyndall_gpu::{GpuError, Program, Programs, Setup};
 use tyndall_graph::descriptor::PassDescriptor;
 use tyndall_graph::{Catalogue, Kind, PictureSize};
+use tyndall_scene::Extensions;
 use tyndall_shader::{Library, Linked};
 
+use crate::codes::SCENE_CLASH;
 use crate::dispatch;
 use crate::folder::{Folder, Origin};
 use crate::found::{self, Found};
@@ -25,6 +27,7 @@ use crate::reference::Reference;
 #[derive(Clone, Default)]
 pub struct Registry {
     catalogue: Catalogue,
+    extensions: Arc<Extensions>,
     passes: BTreeMap<String, Arc<LazyPass>>,
     /// Of manifests and folders.
     mistakes: Diagnostics,
@@ -48,6 +51,8 @@ pub struct RegistryPass {
     pub needs: Vec<Need>,
     /// What it does not do justice to.
     pub limits: Vec<Limit>,
+    /// What it is wrong with.
+    pub refuses: Vec<Limit>,
     /// Of its linked shaders.
     pub fingerprint: u64,
     /// What it computes, on the CPU, where its plugin says.
@@ -68,21 +73,26 @@ impl Registry {
     /// Reads the manifests of all plugins, those of crates and those of folders found at run time, and links nothing. A
     /// folder of the same name as a crate's plugin replaces that plugin's embedded files, and one on an earlier search
     /// path wins over one on a later path; two on one path are a mistake.
-    pub fn new(crates: Vec<Plugin>, folders: Vec<Folder>, shared: &Library, scene_names: &[&str]) -> Self {
-        let (mut found, mistakes) = found::winners(folders);
-        let mut registry = Self { mistakes, ..Self::default() };
-        for Plugin { name, folder, passes, references } in crates {
+    pub fn new(mut crates: Vec<Plugin>, folders: Vec<Folder>, shared: &Library) -> Self {
+        let (extensions, clashes) = extensions(&mut crates);
+        let (mut found, mistakes) = found::winners(folders, &extensions);
+        let mut registry = Self { mistakes, extensions: Arc::new(extensions), ..Self::default() };
+        for (Plugin { name, folder, passes, references, .. }, clashes) in crates.into_iter().zip(clashes) {
             let replaced = found.iter().position(|found| found.name == name);
             let files = match replaced {
                 Some(index) => Some(found.remove(index)),
-                None => Found::read(folder, &name),
+                None => Found::read(folder, &name, &registry.extensions),
             };
-            if let Some(files) = files {
-                registry.add(files, passes, references, (shared, scene_names));
+            if let Some(mut files) = files {
+                let place = files.place();
+                files
+                    .mistakes
+                    .extend(clashes.into_iter().map(|text| Diagnostic::error(SCENE_CLASH, place.clone(), text)));
+                registry.add(files, passes, references, shared);
             }
         }
         for files in found {
-            registry.add(files, Vec::new(), Vec::new(), (shared, scene_names));
+            registry.add(files, Vec::new(), Vec::new(), shared);
         }
         registry
     }
@@ -93,7 +103,7 @@ impl Registry {
         Found { name, is_named, manifest, folder, mistakes }: Found,
         rust: Vec<RustPass>,
         references: Vec<(String, Reference)>,
-        (shared, scene_names): (&Library, &[&str]),
+        shared: &Library,
     ) {
         self.mistakes.extend(mistakes.iter().cloned());
         self.catalogue.insert_plugin(&name, folder.manifest_path(), mistakes.clone());
@@ -103,7 +113,7 @@ impl Registry {
         let Some(manifest) = manifest else { return };
         let linker = Arc::new(Linker {
             library: folder.library(shared),
-            scene_names: scene_names.iter().map(|name| (*name).to_owned()).collect(),
+            extensions: self.extensions.clone(),
             references: references.into_iter().collect(),
             manifest,
             folder,
@@ -129,6 +139,11 @@ impl Registry {
         let of = pass.clone();
         self.catalogue.insert_lazy(&name, move || linked(&of).map(|pass| pass.kind.clone()).map_err(Clone::clone));
         self.passes.insert(name, pass);
+    }
+
+    /// What the plugins add to scenes: what a scene is loaded with.
+    pub fn extensions(&self) -> &Arc<Extensions> {
+        &self.extensions
     }
 
     /// The descriptors, for validation.
@@ -189,6 +204,16 @@ impl Registry {
     pub fn near(&self, name: &str) -> Option<&str> {
         near(name, self.passes.keys().map(String::as_str))
     }
+}
+
+/// What plugins add to scenes, all together, and of each plugin what of it was taken already; of such a plugin nothing is
+/// added.
+fn extensions(crates: &mut [Plugin]) -> (Extensions, Vec<Vec<String>>) {
+    let mut all = Extensions::default();
+    let add =
+        |plugin: &mut Plugin| all.add(&plugin.name, std::mem::take(&mut plugin.extension)).err().unwrap_or_default();
+    let clashes = crates.iter_mut().map(add).collect();
+    (all, clashes)
 }
 
 /// A pass, which is linked now if it has not been.

@@ -163,7 +163,7 @@ fn a_pass_that_is_missing_is_missing_in_a_file() {
 fn two_passes_of_one_name_stop_whoever_uses_it() {
     let folder = || Folder::embedded("t", &[("plugin.ron", MANIFEST), ("p.wgsl", SHADER), ("q.wgsl", SHADER)]);
     let crates = vec![Plugin::new("t", folder()), Plugin::new("t", folder())];
-    let registry = Registry::new(crates.into_iter().chain(shipped()).collect(), Vec::new(), &Library::default(), &[]);
+    let registry = Registry::new(crates.into_iter().chain(shipped()).collect(), Vec::new(), &Library::default());
     let text = mistakes(&registry, "t.p");
     assert!(text.contains("there is a pass named `t.p` already"), "{text}");
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use tyndall_document::render_text;
-use tyndall_plugin::{Folder, Registry, SceneFeature};
+use tyndall_plugin::{Folder, Limit, Plugin, Registry};
 use tyndall_shader::Library;
 
 const SHADER: &str = "var result: texture_storage_2d<rgba32float, write>;
@@ -11,7 +11,8 @@ const SHADER: &str = "var result: texture_storage_2d<rgba32float, write>;
     textureStore(result, id.xy, vec4<f32>(1.0));
 }";
 
-fn registry(limits: &str) -> Result<Registry, Arc<str>> {
+/// The plugin `test`, a crate's where it `brings` features, and a folder without Rust else.
+fn registry_of(brings: &[&'static str], limits: &str) -> Result<Registry, Arc<str>> {
     let manifest = format!(
         "(name: \"test\", version: \"0.1.0\", about: \"For tests.\", passes: {{
     \"fill\": (about: \"Fills.\", shader: \"pass.wgsl\", limits: {limits},
@@ -19,17 +20,40 @@ fn registry(limits: &str) -> Result<Registry, Arc<str>> {
 }})"
     );
     let folder = Folder::embedded("test", &[("plugin.ron", &manifest), ("pass.wgsl", SHADER)]);
-    let registry = Registry::new(Vec::new(), vec![folder], &Library::default(), &[]);
+    let bring = |plugin: Plugin, name: &&'static str| plugin.scene_feature(name, |scene| scene.lights.len() > 2);
+    let other = Folder::embedded("other", &[("plugin.ron", OTHER)]);
+    let mut plugins = vec![Plugin::new("other", other).scene_feature("ThreeLights", |scene| scene.lights.len() > 2)];
+    let mut folders = Vec::new();
+    match brings {
+        [] => folders.push(folder),
+        brings => plugins.push(brings.iter().fold(Plugin::new("test", folder), bring)),
+    }
+    let registry = Registry::new(plugins, folders, &Library::default());
     let mistakes = registry.mistakes();
     if mistakes.is_empty() { Ok(registry) } else { Err(render_text(&mistakes, false).into()) }
 }
 
+fn registry(limits: &str) -> Result<Registry, Arc<str>> {
+    registry_of(&[], limits)
+}
+
+const OTHER: &str = "(name: \"other\", version: \"0.1.0\", about: \"Brings a feature.\", passes: {})";
+
+fn told(limits: &[Limit]) -> Vec<(&str, &str)> {
+    limits.iter().map(|limit| (limit.feature.name, limit.text.as_str())).collect()
+}
+
+/// A manifest names the scene's own features, its plugin's, and those of other plugins.
 #[test]
 fn limits_are_read() {
-    let registry = registry("[Spot(\"dark\"), SeveralShininesses(\"one\")]").unwrap_or_else(|text| panic!("{text}"));
-    let limits = &registry.pass("test.fill").expect("it was registered").limits;
-    let found: Vec<_> = limits.iter().map(|limit| (limit.feature, limit.text.as_str())).collect();
-    assert_eq!(found, [(SceneFeature::Spot, "dark"), (SceneFeature::SeveralShininesses, "one")]);
+    for brings in [vec![], vec!["ManyLights"], vec!["ManyLights", "ThreeLights"]] {
+        let limits = "[Spot(\"dark\"), ThreeLights(\"two\")], refuses: [Medium(\"is for clear air only\")]";
+        let registry = registry_of(&brings, limits).unwrap_or_else(|text| panic!("{brings:?}: {text}"));
+        let pass = registry.pass("test.fill").expect("it was registered");
+        assert_eq!(told(&pass.limits), [("Spot", "dark"), ("ThreeLights", "two")]);
+        assert_eq!(told(&pass.refuses), [("Medium", "is for clear air only")]);
+    }
+    assert!(registry_of(&["ManyLights"], "[ManyLights(\"dark\")]").is_ok());
 }
 
 #[test]
@@ -38,7 +62,8 @@ fn mistakes_have_a_place_and_a_hint() {
         ("[Spott(\"dark\")]", "error[unknown-variant]: `Spott` is not something that a scene can have"),
         ("[Spott(\"dark\")]", "plugin.ron:2:61"),
         ("[Spott(\"dark\")]", "did you mean `Spot`?"),
-        ("[Spot]", "error[wrong-type]: expected `Spot(\"what the pass does instead\")`"),
+        ("[ManyLights(\"dark\")]", "help: available: `Point`, `Spot`, `Directional`, `Medium`, `ThreeLights`"),
+        ("[Spot]", "error[wrong-type]: expected `Spot(\"what is told of it\")`"),
         ("[Spot(3)]", "error[wrong-type]: expected a string, found the number 3"),
         ("(1, 2)", "error[wrong-type]: expected a list"),
         ("[], dispatch: (0, 3)", "error[wrong-type]: expected the name of a port, or numbers of threads: (x, y, z)"),

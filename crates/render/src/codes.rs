@@ -7,8 +7,8 @@ codes! {
     CODES:
     /// The graph reads a scene, and none is given.
     NO_SCENE = "no-scene";
-    /// A pass is right in a homogeneous medium only, and the scene has height fog.
-    NOT_HOMOGENEOUS = "not-homogeneous";
+    /// A pass would be wrong in this scene.
+    REFUSED = "scene-refused";
     /// A switch is on whose work needs an optional input that nothing feeds.
     INPUT_NEEDED = "input-needed";
     /// The scene has something that a pass does not do justice to.

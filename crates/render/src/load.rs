@@ -8,12 +8,10 @@ use std::time::Instant;
 use tyndall_document::{Diagnostic, Diagnostics, Place, Source};
 use tyndall_graph::descriptor::ParamValue;
 use tyndall_graph::{Graph, Keep, Override, Overrides, ParamSetting, Plan, PlanOptions, Roots};
-use tyndall_plugin::{Registry, SceneFeature};
-use tyndall_scene::model::LightKind;
-use tyndall_scene::{SHININESSES_MAX, SPOTS_MAX, Scene};
-use tyndall_shaders::lights::LIT_LIGHTS;
+use tyndall_plugin::{Registry, RegistryPass};
+use tyndall_scene::{Refusal, Scene};
 
-use crate::codes::{INPUT_NEEDED, LIMIT, NO_SCENE, NOT_HOMOGENEOUS};
+use crate::codes::{INPUT_NEEDED, LIMIT, NO_SCENE, REFUSED};
 use crate::error::Error;
 
 /// What is to be rendered.
@@ -78,24 +76,11 @@ impl Loaded {
         let Some(scene) = &self.scene else { return };
         for pass in self.graph.passes.iter().filter(|pass| pass.enabled) {
             let Some(registered) = registry.pass(&pass.descriptor().name) else { continue };
-            for limit in registered.limits.iter().filter(|limit| has(scene, limit.feature)) {
+            for limit in registered.limits.iter().filter(|limit| (limit.feature.is_in)(scene)) {
                 let message = format!("pass `{}`: {}", pass.name, limit.text);
                 out.push(Diagnostic::warning(LIMIT, self.graph.place(pass.span), message));
             }
         }
-    }
-}
-
-fn has(scene: &Scene, feature: SceneFeature) -> bool {
-    match feature {
-        SceneFeature::Point => scene.lights.iter().any(|light| light.kind == LightKind::Point),
-        SceneFeature::ManyLights => scene.lights.len() > LIT_LIGHTS,
-        SceneFeature::Medium => scene.medium.as_ref().is_some_and(|medium| medium.extinction.max_element() > 0.0),
-        SceneFeature::Spot => scene.lights.iter().any(|light| matches!(light.kind, LightKind::Spot { .. })),
-        SceneFeature::Directional => scene.lights.iter().any(|light| light.kind == LightKind::Directional),
-        SceneFeature::SeveralShininesses => scene.shininess_count() > 1,
-        SceneFeature::TooManyShininesses => scene.shininess_count() > SHININESSES_MAX,
-        SceneFeature::TooManySpots => scene.spot_shape_count() > SPOTS_MAX,
     }
 }
 
@@ -116,9 +101,9 @@ pub fn load(request: &Request, registry: &Registry, out: &mut Diagnostics) -> Op
     let graph = file.and_then(|file| tyndall_graph::validate(&file, registry.catalogue(), &overrides, out));
     let validate_us = start.elapsed().as_secs_f64() * 1e6;
     let graph = graph?;
-    let scene = load_scene(request, &graph, &scene_overrides, out)?;
-    if scene.as_ref().is_some_and(Scene::has_height_fog) {
-        refuse_homogeneous(&graph, out);
+    let scene = load_scene(request, &graph, (&scene_overrides, registry), out)?;
+    if let Some(scene) = &scene {
+        refuse(&graph, scene, registry, out);
     }
     Some(Loaded { graph, scene, load_us, validate_us })
 }
@@ -140,19 +125,36 @@ fn overrides(request: &Request, out: &mut Diagnostics) -> (Overrides, tyndall_sc
     (graph, scene)
 }
 
-/// A pass that reads the medium and not how its density falls with the height would be silently wrong.
-fn refuse_homogeneous(graph: &Graph, out: &mut Diagnostics) {
+/// Refuses passes that would be silently wrong in this scene: those whose manifest says so, and those that read scene
+/// data without others that would tell them.
+fn refuse(graph: &Graph, scene: &Scene, registry: &Registry, out: &mut Diagnostics) {
     for pass in graph.passes.iter().filter(|pass| pass.enabled) {
         let descriptor = pass.descriptor();
+        let refused = |because: &str| {
+            let message = format!("pass `{}` ({}) {because}", pass.name, descriptor.name);
+            Diagnostic::error(REFUSED, graph.place(pass.span), message)
+        };
         let reads = |name: &str| descriptor.scene.iter().any(|read| read == name);
-        if reads("medium") && !reads("height_fog") {
-            let message = format!(
-                "pass `{}` ({}) is right in a homogeneous medium only, and the scene's medium has a `scale_height`",
-                pass.name, descriptor.name
-            );
-            let hint = "use passes for height fog (`airlight.height_fog`, `surface_radiance.direct`, as in \
-                        height-fog.graph.ron), or leave `scale_height` out of the scene";
-            out.push(Diagnostic::error(NOT_HOMOGENEOUS, graph.place(pass.span), message).suggest(hint));
+        let registered = registry.pass(&descriptor.name);
+        let declared = registered.iter().flat_map(|pass| &pass.refuses);
+        out.extend(declared.filter(|limit| (limit.feature.is_in)(scene)).map(|limit| refused(&limit.text)));
+        for refusal in registry.extensions().refusals().filter(|refusal| (refusal.feature.is_in)(scene)) {
+            if reads(refusal.reads) && !reads(refusal.without) {
+                out.push(refused(refusal.because).suggest(way_out(refusal, registry)));
+            }
+        }
+    }
+}
+
+/// The passes that would be right, and how else to go on.
+fn way_out(refusal: &Refusal, registry: &Registry) -> String {
+    let reads = |pass: &RegistryPass, name: &str| pass.descriptor.scene.iter().any(|read| read == name);
+    let right = registry.passes().filter(|pass| reads(pass, refusal.reads) && reads(pass, refusal.without));
+    let right: Vec<String> = right.map(|pass| format!("`{}`", pass.descriptor.name)).collect();
+    match right.as_slice() {
+        [] => refusal.remedy.to_owned(),
+        names => {
+            format!("use passes that read `{}` as well ({}), or {}", refusal.without, names.join(", "), refusal.remedy)
         }
     }
 }
@@ -161,7 +163,7 @@ fn refuse_homogeneous(graph: &Graph, out: &mut Diagnostics) {
 fn load_scene(
     request: &Request,
     graph: &Graph,
-    overrides: &tyndall_scene::Overrides,
+    (overrides, registry): (&tyndall_scene::Overrides, &Registry),
     out: &mut Diagnostics,
 ) -> Option<Option<Scene>> {
     let Some(path) = &graph.scene else {
@@ -180,7 +182,7 @@ fn load_scene(
         return Some(None);
     };
     let path = request.scene.as_deref().unwrap_or(Path::new(path));
-    match Scene::load(path, overrides) {
+    match Scene::load(path, overrides, registry.extensions()) {
         Ok((scene, warnings)) => {
             out.extend(warnings);
             Some(Some(scene))

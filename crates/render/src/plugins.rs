@@ -13,7 +13,7 @@ pub fn registry(crates: Vec<Plugin>, paths: &[SearchPath]) -> Result<Registry, D
     let collected = |mistakes: Vec<_>| mistakes.into_iter().collect::<Diagnostics>();
     let folders = find_folders(paths).map_err(collected)?;
     let shared = shader_modules(tyndall_shaders::MODULES, paths).map_err(collected)?;
-    let registry = Registry::new(crates, folders, &shared, tyndall_scene::SCENE_DATA);
+    let registry = Registry::new(crates, folders, &shared);
     Ok(registry.with_picture_size(picture_size))
 }
 

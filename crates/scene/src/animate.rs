@@ -2,18 +2,36 @@
 
 use glam::DVec3;
 
-/// A constant, or keys with linear interpolation.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Animated {
-    /// The same at every time.
-    Constant(DVec3),
-    /// `(seconds, value)`, at least one, times strictly ascending; constant before the first and after the last.
-    Keys(Vec<(f64, DVec3)>),
+/// A value between two keys.
+pub trait Blend: Copy + PartialEq {
+    /// The value on the straight way from this one to another, 0 here and 1 there.
+    fn blend(self, to: Self, share: f64) -> Self;
 }
 
-impl Animated {
+impl Blend for f64 {
+    fn blend(self, to: Self, share: f64) -> Self {
+        self + (to - self) * share
+    }
+}
+
+impl Blend for DVec3 {
+    fn blend(self, to: Self, share: f64) -> Self {
+        self.lerp(to, share)
+    }
+}
+
+/// A constant, or keys with linear interpolation.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Animated<T = DVec3> {
+    /// The same at every time.
+    Constant(T),
+    /// `(seconds, value)`, at least one, times strictly ascending; constant before the first and after the last.
+    Keys(Vec<(f64, T)>),
+}
+
+impl<T: Blend> Animated<T> {
     /// The value at a time in seconds.
-    pub fn at(&self, time: f64) -> DVec3 {
+    pub fn at(&self, time: f64) -> T {
         let keys = match self {
             Animated::Constant(value) => return *value,
             Animated::Keys(keys) => keys,
@@ -21,7 +39,7 @@ impl Animated {
         let (index, weight) = segment(keys.iter().map(|k| k.0), time);
         let (from, to) = (keys[index].1, keys[(index + 1).min(keys.len() - 1)].1);
         // The second form returns the keys' own values where the weight is 0 or 1.
-        if weight == 0.0 { from } else { from.lerp(to, weight) }
+        if weight == 0.0 { from } else { from.blend(to, weight) }
     }
 
     /// Whether the value differs between some two times.

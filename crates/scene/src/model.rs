@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DQuat, DVec3};
 
 use crate::animate::Animated;
+use crate::field::Fields;
 use crate::mesh::Mesh;
 use crate::primitives::Primitive;
 
@@ -56,6 +57,8 @@ pub struct Light {
     pub radius: f64,
     /// Where it stands and the way its light travels.
     pub placement: Placement,
+    /// Those that plugins bring.
+    pub fields: Fields,
 }
 
 /// Where the picture is taken from.
@@ -84,7 +87,7 @@ pub enum Camera {
 }
 
 /// How a surface reflects.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// Lambert reflectance ρ; the BRDF is ρ/π. Multiplied with the texture where there is one.
     pub diffuse: DVec3,
@@ -94,11 +97,27 @@ pub struct Material {
     pub shininess: f64,
     /// Index into the textures.
     pub texture: Option<usize>,
+    /// Those that plugins bring.
+    pub fields: Fields,
 }
 
 impl Default for Material {
     fn default() -> Self {
-        Material { diffuse: DVec3::splat(0.8), specular: DVec3::ZERO, shininess: 1.0, texture: None }
+        let (diffuse, specular) = (DVec3::splat(0.8), DVec3::ZERO);
+        Material { diffuse, specular, shininess: 1.0, texture: None, fields: Fields::default() }
+    }
+}
+
+impl Material {
+    /// Whether it has a Phong lobe.
+    pub fn is_shiny(&self) -> bool {
+        self.specular.max_element() > 0.0
+    }
+
+    /// The number of its shininess among these, from 1; 0 without a Phong lobe.
+    pub(crate) fn shininess_rank(&self, shininesses: &[f32]) -> u32 {
+        let rank = shininesses.iter().position(|value| *value == self.shininess as f32);
+        rank.filter(|_| self.is_shiny()).map_or(0, |index| index as u32 + 1)
     }
 }
 
@@ -138,6 +157,8 @@ pub struct Object {
     pub scale: f64,
     /// The nodes of a glTF file, parents before children; empty for a primitive.
     pub(crate) nodes: Arc<Vec<Node>>,
+    /// Those that plugins bring.
+    pub fields: Fields,
 }
 
 impl Object {

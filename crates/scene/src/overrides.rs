@@ -3,6 +3,7 @@
 //! The decoder reads one source; so the arguments are appended to the scene file's text, their spans moved there, and
 //! [`Merged::restore`] turns places in the appended part back into the arguments that they came from.
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use tyndall_document::{Diagnostic, Diagnostics, Field, Node, Place, Source, Span, Value};
@@ -71,9 +72,11 @@ impl Merged {
         Merged { source, original: Arc::clone(original), arguments }
     }
 
-    /// Whether a span lies in an argument.
-    pub fn is_argument(&self, span: Span) -> bool {
-        self.arguments.first().is_some_and(|first| span.start >= first.0)
+    /// Where a path that the text names leads: from the scene file's folder, or from the working directory where it was
+    /// given on the command line.
+    pub fn path(&self, folder: &Path, text: &str, span: Span) -> PathBuf {
+        let is_argument = self.arguments.first().is_some_and(|first| span.start >= first.0);
+        if is_argument { PathBuf::from(text) } else { folder.join(text) }
     }
 
     /// Diagnostics with places in the scene file or at arguments.

@@ -10,6 +10,8 @@ use tyndall_document::{Diagnostic, Diagnostics, MISSING_FILE, Span};
 use crate::animate::Animated;
 use crate::codes::{GLTF_METAL, MISSING_CAMERA, SCENE_TOO_LARGE, UNKNOWN_SUFFIX};
 use crate::decode::{CameraDraft, Draft, MediumDraft, MeshDraft, ObjectDraft};
+use crate::extensions::Extensions;
+use crate::field::{Fields, MediumFields};
 use crate::gltf::{self, MOST_ELEMENTS, Model};
 use crate::mesh::Mesh;
 use crate::model::{Camera, Instance, Light, Material, Medium, Object, Placement};
@@ -31,14 +33,20 @@ struct Files<'a> {
 }
 
 /// The scene; `None` where a mistake leaves nothing to make of it. Every mistake is in `out`.
-pub(crate) fn scene(draft: Draft, merged: &Merged, whole: Span, folder: &Path, out: &mut Diagnostics) -> Option<Scene> {
+pub(crate) fn scene(
+    draft: Draft,
+    merged: &Merged,
+    whole: Span,
+    (folder, extensions): (&Path, &Arc<Extensions>),
+    out: &mut Diagnostics,
+) -> Option<Scene> {
     let plain = draft.objects.iter().filter(|object| object.material.is_none());
     let plain = plain.filter_map(|object| match &object.mesh {
         MeshDraft::File(text, _) => Some(text.clone()),
         MeshDraft::Primitive(_) => None,
     });
     let plain = plain.collect();
-    let mut files = Files { merged, folder, out, known: BTreeMap::new(), plain, read: Vec::new() };
+    let mut files = Files { merged, folder, out, known: BTreeMap::new(), plain, read: draft.files };
     let models: Vec<Option<Arc<Model>>> = draft.objects.iter().map(|object| files.model(object)).collect();
     let phase = files.phase(draft.medium.as_ref());
     let complete = draft.objects.iter().zip(&models).all(|(o, m)| m.is_some() == matches!(o.mesh, MeshDraft::File(..)));
@@ -56,8 +64,10 @@ pub(crate) fn scene(draft: Draft, merged: &Merged, whole: Span, folder: &Path, o
     if !complete {
         return None;
     }
-    let mut scene = Scene::new(camera?, read);
-    if let Some(MediumDraft { medium, height_fog, ambient, emission, .. }) = draft.medium {
+    let mut scene = Scene::new(camera?, read, extensions);
+    scene.fields = draft.fields;
+    if let Some(MediumDraft { medium, height_fog, ambient, emission, fields, .. }) = draft.medium {
+        scene.medium_fields = MediumFields(fields);
         scene.height_fog = height_fog;
         scene.ambient = ambient + (DVec3::ONE - medium.albedo) * emission;
         scene.medium = Some(Medium { phase: phase?, ..medium });
@@ -72,18 +82,12 @@ pub(crate) fn scene(draft: Draft, merged: &Merged, whole: Span, folder: &Path, o
 }
 
 impl Files<'_> {
-    /// Where a path of the scene file leads.
-    fn path(&self, text: &str, span: Span) -> PathBuf {
-        // Paths on the command line are relative to the working directory.
-        if self.merged.is_argument(span) { PathBuf::from(text) } else { self.folder.join(text) }
-    }
-
     /// The phase function of the medium; `None` where its file holds none.
     fn phase(&mut self, medium: Option<&MediumDraft>) -> Option<Phase> {
         let Some(MediumDraft { phase_file: Some((text, span)), .. }) = medium else {
             return Some(medium.map_or(Phase::Isotropic, |draft| draft.medium.phase));
         };
-        let path = self.path(text, *span);
+        let path = self.merged.path(self.folder, text, *span);
         let table = phase_file::read(&path, &self.merged.source.place(*span), self.out);
         self.read.push(path);
         table.map(Phase::Measured)
@@ -91,7 +95,7 @@ impl Files<'_> {
 
     fn model(&mut self, object: &ObjectDraft) -> Option<Arc<Model>> {
         let MeshDraft::File(text, span) = &object.mesh else { return None };
-        let path = self.path(text, *span);
+        let path = self.merged.path(self.folder, text, *span);
         if let Some(known) = self.known.get(&path) {
             return known.clone();
         }
@@ -142,6 +146,7 @@ fn lights(models: &[Option<Arc<Model>>]) -> Vec<Light> {
                 intensity: Animated::Constant(light.intensity),
                 radius: 0.0,
                 placement: Placement::Node { object, node: light.node },
+                fields: Fields::default(),
             });
         }
     }
@@ -176,9 +181,9 @@ impl Shared {
 
 fn add(scene: &mut Scene, draft: ObjectDraft, model: Option<&Model>, shared: &mut Shared) {
     let object = scene.objects.len();
-    let ObjectDraft { mesh, translation, rotation, scale, material, casts_shadow } = draft;
+    let ObjectDraft { mesh, translation, rotation, scale, material, casts_shadow, fields } = draft;
     let nodes = model.map(|m| Arc::clone(&m.nodes)).unwrap_or_default();
-    scene.objects.push(Object { translation, rotation, scale, nodes });
+    scene.objects.push(Object { translation, rotation, scale, nodes, fields });
     let own = material.map(|material| push(&mut scene.materials, material));
     match (mesh, model) {
         (MeshDraft::Primitive(primitive), _) => {
@@ -213,7 +218,7 @@ fn adopt(scene: &mut Scene, model: &Model) -> usize {
     let first = scene.materials.len();
     let textures = scene.textures.len();
     scene.textures.extend(model.textures.iter().cloned());
-    let moved = |m: &Material| Material { texture: m.texture.map(|t| t + textures), ..*m };
+    let moved = |m: &Material| Material { texture: m.texture.map(|t| t + textures), ..m.clone() };
     scene.materials.extend(model.materials.iter().map(moved));
     first
 }

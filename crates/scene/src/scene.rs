@@ -4,16 +4,19 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::DVec3;
-use tyndall_document::{Decoder, Diagnostics, Source, parse};
+use tyndall_document::{Diagnostics, Source, parse};
 
 use crate::adjacency::Adjacency;
-use crate::cosine_lobes;
 use crate::decode;
-use crate::encode::{Encoded, SCENE_DATA, is_derived};
+use crate::encoded::Encoded;
+use crate::extensions::Extensions;
+use crate::field::{Fields, MediumFields};
 use crate::frame::{Bounds, Frame};
-use crate::model::{Camera, Instance, Light, LightKind, Material, Medium, Object, Placement, Texture};
+use crate::model::{Camera, Instance, Light, Material, Medium, Object, Texture};
 use crate::overrides::{Merged, Overrides};
+use crate::read::SceneReader;
 use crate::resolve;
+use crate::scene_data::SceneData;
 use tyndall_shaders::scene::HeightFog;
 
 /// Everything that a scene file and the files named in it say, checked and ready to be encoded for any time.
@@ -39,20 +42,29 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// To which the materials refer.
     pub textures: Vec<Texture>,
+    /// Sections that plugins bring.
+    pub fields: Fields,
+    /// Fields of the medium that plugins bring.
+    pub medium_fields: MediumFields,
     files: Vec<PathBuf>,
+    extensions: Arc<Extensions>,
 }
 
 impl Scene {
-    /// Reads a scene file and the files that it names.
+    /// Reads a scene file and the files that it names. `extensions` are what the plugins of a run add to scenes.
     ///
     /// Gives the scene and warnings, in the order of the file.
     ///
     /// # Errors
     /// Every mistake of the file, of the overrides, and of the glTF files, in the order of the file.
-    pub fn load(path: &Path, overrides: &Overrides) -> Result<(Scene, Diagnostics), Diagnostics> {
+    pub fn load(
+        path: &Path,
+        overrides: &Overrides,
+        extensions: &Arc<Extensions>,
+    ) -> Result<(Scene, Diagnostics), Diagnostics> {
         let source = Source::read(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        let (mut scene, warnings) = Scene::from_source(&source, folder, overrides)?;
+        let (mut scene, warnings) = Scene::from_source(&source, folder, overrides, extensions)?;
         scene.files.insert(0, path.to_owned());
         Ok((scene, warnings))
     }
@@ -65,14 +77,15 @@ impl Scene {
         source: &Arc<Source>,
         folder: &Path,
         overrides: &Overrides,
+        extensions: &Arc<Extensions>,
     ) -> Result<(Scene, Diagnostics), Diagnostics> {
         let mut out = Diagnostics::default();
         let root = parse(source, &mut out).filter(|_| !out.has_errors());
         let Some(mut root) = root else { return Err(out) };
         let merged = Merged::new(source, &mut root, overrides, &mut out);
-        let draft = decode::scene(&mut Decoder { source: &merged.source, out: &mut out }, &root);
+        let draft = decode::scene(SceneReader::new(&merged, folder, extensions, &mut out), &root);
         // Files are read even after other mistakes, so that theirs are told as well.
-        let scene = draft.and_then(|draft| resolve::scene(draft, &merged, root.span, folder, &mut out));
+        let scene = draft.and_then(|draft| resolve::scene(draft, &merged, root.span, (folder, extensions), &mut out));
         let mut out = merged.restore(out);
         out.sort();
         out.dedup();
@@ -82,7 +95,7 @@ impl Scene {
         }
     }
 
-    pub(crate) fn new(camera: Camera, files: Vec<PathBuf>) -> Scene {
+    pub(crate) fn new(camera: Camera, files: Vec<PathBuf>, extensions: &Arc<Extensions>) -> Scene {
         Scene {
             camera,
             medium: None,
@@ -94,7 +107,10 @@ impl Scene {
             instances: Vec::new(),
             materials: Vec::new(),
             textures: Vec::new(),
+            fields: Fields::default(),
+            medium_fields: MediumFields::default(),
             files,
+            extensions: Arc::clone(extensions),
         }
     }
 
@@ -109,14 +125,18 @@ impl Scene {
         self.height_fog.falloff > 0.0
     }
 
-    /// How many shininesses its Phong lobes have.
-    pub fn shininess_count(&self) -> usize {
-        cosine_lobes::shininesses(&self.materials).len()
+    /// The shininesses of its Phong lobes in single precision, each once, growing.
+    pub fn shininesses(&self) -> Vec<f32> {
+        let shiny = self.materials.iter().filter(|material| material.is_shiny());
+        let mut values: Vec<f32> = shiny.map(|material| material.shininess as f32).collect();
+        values.sort_by(f32::total_cmp);
+        values.dedup();
+        values
     }
 
-    /// How many of its spots differ in exponent or cutoff.
-    pub fn spot_shape_count(&self) -> usize {
-        cosine_lobes::spots(self.lights.iter().map(|light| &light.kind)).len()
+    /// What scenes consist of beyond what this crate knows: what it was loaded with.
+    pub fn extensions(&self) -> &Extensions {
+        &self.extensions
     }
 
     /// Everything that depends on the time, in world space.
@@ -126,13 +146,7 @@ impl Scene {
 
     /// The names of scene data that differ between some two times. All others are the same in every frame.
     pub fn animated(&self) -> Vec<&'static str> {
-        let geometry = self.instances.iter().any(|i| self.instance_moves(i));
-        let flips = self.instances.iter().any(|i| self.instance_flips(i));
-        let lights = self.lights.iter().any(|l| self.light_varies(l));
-        let names = [("camera", self.camera_moves()), ("lights", lights), ("vertices", geometry), ("triangles", flips)];
-        let moving: Vec<&str> = names.into_iter().filter(|n| n.1).map(|n| n.0).collect();
-        let follow = SCENE_DATA.iter().copied().filter(|name| !moving.is_empty() && is_derived(name));
-        moving.iter().copied().chain(follow).collect()
+        self.extensions.data().filter(|data| data.varies(self)).flat_map(SceneData::names).collect()
     }
 
     /// The scene data of a time for an image of this width/height.
@@ -140,8 +154,7 @@ impl Scene {
         self.encode_for(time, aspect, &|_| true)
     }
 
-    /// The same for those who read it: `reads` says of each name whether anybody does. What takes time,
-    /// shadows and occluders, is left empty where nobody reads it.
+    /// The same for those who read it: `reads` says of each name whether anybody does. What nobody reads is not made.
     pub fn encode_for(&self, time: f64, aspect: f64, reads: &dyn Fn(&str) -> bool) -> Encoded {
         Encoded::of(self, time, aspect, reads)
     }
@@ -159,46 +172,6 @@ impl Scene {
     /// Vertex and triangle indices are those of the encoded lists, windings those at time 0. Meshes that keep their places
     /// to one another are welded to each other.
     pub fn adjacency(&self) -> Vec<Adjacency> {
-        crate::encode::adjacency(self)
-    }
-
-    fn camera_moves(&self) -> bool {
-        match &self.camera {
-            Camera::LookAt { position, look_at, .. } => position.varies() || look_at.varies(),
-            Camera::Node { object, node, .. } => self.node_moves(*object, Some(*node)),
-        }
-    }
-
-    fn light_varies(&self, light: &Light) -> bool {
-        let moves = match (&light.placement, light.kind) {
-            (Placement::World { position, .. }, LightKind::Point) => position.varies(),
-            (Placement::World { direction, .. }, LightKind::Directional) => direction.varies(),
-            (Placement::World { position, direction }, LightKind::Spot { .. }) => {
-                position.varies() || direction.varies()
-            }
-            (Placement::Node { object, node }, _) => self.node_moves(*object, Some(*node)),
-        };
-        moves || light.intensity.varies()
-    }
-
-    /// The node that carries an instance, where it moves within its object.
-    pub(crate) fn moving_node(&self, instance: &Instance) -> Option<usize> {
-        instance.node.filter(|node| self.objects[instance.object].nodes[*node].moves)
-    }
-
-    /// Whether an instance's transform differs between some two times.
-    pub fn instance_moves(&self, instance: &Instance) -> bool {
-        self.node_moves(instance.object, instance.node)
-    }
-
-    /// Whether an instance may turn inside out over time.
-    pub(crate) fn instance_flips(&self, instance: &Instance) -> bool {
-        let nodes = &self.objects[instance.object].nodes;
-        instance.node.is_some_and(|n| nodes[n].may_flip)
-    }
-
-    fn node_moves(&self, object: usize, node: Option<usize>) -> bool {
-        let object = &self.objects[object];
-        object.translation.varies() || node.is_some_and(|n| object.nodes[n].moves)
+        crate::geometry::adjacency(self)
     }
 }

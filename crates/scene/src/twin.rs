@@ -3,9 +3,7 @@
 use glam::{DAffine3, DVec3};
 use tyndall_shaders::scene as twin;
 
-use crate::cosine_lobes::CosineLobes;
 use crate::frame::{Frame, FrameLight, View};
-use crate::layout::CosineLobe;
 use crate::model::{Instance, LightKind, Material, Texture, Wrap};
 use crate::scene::Scene;
 
@@ -14,8 +12,7 @@ impl Scene {
     /// shadows alone.
     pub fn twin(&self, time: f64, aspect: f64) -> twin::Scene {
         let frame = self.at(time);
-        let shiny = self.materials.iter().filter(|material| material.specular.max_element() > 0.0);
-        let lobes = CosineLobes::of(&self.materials, &frame.lights);
+        let shiny = self.materials.iter().filter(|material| material.is_shiny());
         twin::Scene {
             camera: camera(&frame.camera, aspect),
             medium: self.medium.unwrap_or(twin::Medium {
@@ -29,7 +26,6 @@ impl Scene {
             lights: frame.lights.iter().map(light).collect(),
             casters: self.casters(&frame),
             shininesses: shiny.map(|material| material.shininess).collect(),
-            cosine_lobes: lobes.items.iter().map(cosine_lobe).collect(),
         }
     }
 
@@ -46,11 +42,11 @@ impl Scene {
     /// The triangles that [`Scene::encode`] gives shaders, and what they look like, in double precision.
     pub fn surfaces(&self, time: f64) -> twin::Surfaces {
         let frame = self.at(time);
-        let lobes = CosineLobes::of(&self.materials, &frame.lights);
+        let shininesses = self.shininesses();
         let instances = self.instances.iter().zip(&frame.transforms);
         twin::Surfaces {
             triangles: instances.flat_map(|(instance, transform)| triangles(instance, *transform)).collect(),
-            materials: self.materials.iter().map(|of| material(of, lobes.of_material(of))).collect(),
+            materials: self.materials.iter().map(|of| material(of, of.shininess_rank(&shininesses))).collect(),
             textures: self.textures.iter().map(texture).collect(),
         }
     }
@@ -74,9 +70,9 @@ fn triangles(instance: &Instance, transform: DAffine3) -> impl Iterator<Item = t
     })
 }
 
-fn material(material: &Material, lobe: u32) -> twin::Material {
-    let Material { diffuse, specular, shininess, texture } = *material;
-    twin::Material { diffuse, specular, shininess, lobe, texture }
+fn material(material: &Material, shininess_rank: u32) -> twin::Material {
+    let Material { diffuse, specular, shininess, texture, .. } = *material;
+    twin::Material { diffuse, specular, shininess, shininess_rank, texture }
 }
 
 fn texture(texture: &Texture) -> twin::Texture {
@@ -95,11 +91,6 @@ fn texture(texture: &Texture) -> twin::Texture {
         wrap: texture.wrap.map(wrap),
         texels: texture.texels.iter().map(rgb).collect(),
     }
-}
-
-fn cosine_lobe(lobe: &CosineLobe) -> twin::CosineLobe {
-    let [exponent, cos_cutoff] = [lobe.exponent, lobe.cos_cutoff].map(f64::from);
-    twin::CosineLobe { exponent, cos_cutoff, is_spot: lobe.is_spot != 0 }
 }
 
 fn camera(view: &View, aspect: f64) -> twin::Camera {

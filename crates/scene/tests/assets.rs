@@ -4,6 +4,7 @@
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use tyndall_document::{Diagnostics, Source, render_text};
 use tyndall_scene::{Overrides, Scene};
@@ -23,7 +24,7 @@ fn load(folder: &Path, fields: &str, file: &str) -> (Scene, Diagnostics) {
         "(camera: (position: (0.0, 0.0, 3.0), look_at: (0.0, 0.0, 0.0)), objects: [(mesh: File(\"{file}\"), {fields})])"
     );
     let source = Source::new("assets.scene.ron", text);
-    Scene::from_source(&source, folder, &Overrides::new())
+    Scene::from_source(&source, folder, &Overrides::new(), &Arc::default())
         .unwrap_or_else(|errors| panic!("{file}: {}", render_text(&errors, false)))
 }
 

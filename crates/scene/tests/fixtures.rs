@@ -18,7 +18,7 @@ fn overrides(text: &str) -> Overrides {
 }
 
 fn run(source: &Arc<Source>) -> Diagnostics {
-    match Scene::from_source(source, Path::new("tests/fixtures"), &overrides(source.text())) {
+    match Scene::from_source(source, Path::new("tests/fixtures"), &overrides(source.text()), &Arc::default()) {
         Ok((_, warnings)) => warnings,
         Err(mistakes) => mistakes,
     }

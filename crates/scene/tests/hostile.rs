@@ -11,6 +11,7 @@ mod pictures;
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{Quat, Vec3};
@@ -88,7 +89,7 @@ fn sample() -> Vec<u8> {
 fn read(folder: &Path, bytes: &[u8]) -> bool {
     std::fs::write(folder.join("model.glb"), bytes).expect("a file");
     let source = Source::new("s.scene.ron", "(objects: [(mesh: File(\"model.glb\"))])");
-    match Scene::from_source(&source, folder, &Overrides::new()) {
+    match Scene::from_source(&source, folder, &Overrides::new(), &Arc::default()) {
         Ok((scene, _)) => {
             scene.encode(0.5, 1.0);
             true

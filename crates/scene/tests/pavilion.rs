@@ -10,6 +10,7 @@ mod model;
 mod pictures;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use tyndall_document::render_text;
 use tyndall_scene::model::LightKind;
@@ -31,6 +32,7 @@ fn the_model_is_sound() {
         &tyndall_document::Source::new("test.scene.ron", "(objects: [(mesh: File(\"models/pavilion.glb\"))])"),
         Path::new(FOLDER),
         &Overrides::new(),
+        &Arc::default(),
     )
     .unwrap_or_else(|errors| panic!("{}", render_text(&errors, false)));
     assert!(warnings.is_empty(), "{}", render_text(&warnings, false));

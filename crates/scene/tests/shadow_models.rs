@@ -15,6 +15,7 @@ mod skin;
 mod tree;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use tyndall_document::render_text;
 use tyndall_scene::{Overrides, Scene};
@@ -34,7 +35,8 @@ fn the_generator_makes_the_committed_bytes() {
 }
 
 fn scene(name: &str) -> Scene {
-    let loaded = Scene::load(&Path::new(FOLDER).join(name).with_extension("scene.ron"), &Overrides::new());
+    let loaded =
+        Scene::load(&Path::new(FOLDER).join(name).with_extension("scene.ron"), &Overrides::new(), &Arc::default());
     let (scene, warnings) = loaded.unwrap_or_else(|errors| panic!("{}", render_text(&errors, false)));
     assert!(warnings.is_empty(), "{}", render_text(&warnings, false));
     scene

@@ -11,6 +11,7 @@ mod model;
 mod noise;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use tyndall_document::render_text;
 use tyndall_scene::{Overrides, Scene};
@@ -27,7 +28,7 @@ fn the_generator_makes_the_committed_bytes() {
 
 #[test]
 fn the_scene_is_sound() {
-    let loaded = Scene::load(&Path::new(FOLDER).join("terrain.scene.ron"), &Overrides::new());
+    let loaded = Scene::load(&Path::new(FOLDER).join("terrain.scene.ron"), &Overrides::new(), &Arc::default());
     let (scene, warnings) = loaded.unwrap_or_else(|errors| panic!("{}", render_text(&errors, false)));
     assert!(warnings.is_empty(), "{}", render_text(&warnings, false));
     let mesh = &scene.instances[0].mesh;

@@ -5,6 +5,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
+use tyndall_plugin::scene::{Fields, Moment};
 use tyndall_plugin::{Numbers, Reference, ReferenceInput};
 use tyndall_shaders::scene::{Scene, Surfaces};
 
@@ -24,6 +25,8 @@ pub(crate) struct Known {
     answers: HashMap<u64, Arc<OnceLock<Answer>>>,
     scenes: Distinct<Scene>,
     surfaces: Distinct<Surfaces>,
+    /// Of plugins, with their places among all that can hold some.
+    fields: Distinct<Vec<(usize, Fields)>>,
 }
 
 impl Answers {
@@ -74,8 +77,17 @@ impl Known {
             (name, value.to_string()).hash(&mut hasher);
         }
         input.scene.map(|scene| self.scenes.number_of(scene)).hash(&mut hasher);
+        input.moment.map(|moment| self.of_fields(moment)).hash(&mut hasher);
         input.surfaces.map(|surfaces| self.surfaces.number_of(surfaces)).hash(&mut hasher);
         hasher.finish()
+    }
+
+    /// The number of the fields that plugins have brought, and the time where one of them differs between times.
+    fn of_fields(&mut self, moment: &Moment<'_>) -> (usize, Option<u64>) {
+        let given = moment.scene.plugin_fields().enumerate().filter(|(_, fields)| !fields.is_empty());
+        let fields: Vec<(usize, Fields)> = given.map(|(place, fields)| (place, fields.clone())).collect();
+        let varies = fields.iter().any(|(_, fields)| fields.any_varies());
+        (self.fields.number_of(&fields), varies.then_some(moment.time.to_bits()))
     }
 }
 
@@ -120,7 +132,6 @@ mod tests {
             lights: Vec::new(),
             casters: Vec::new(),
             shininesses: Vec::new(),
-            cosine_lobes: Vec::new(),
         }
     }
 
@@ -130,7 +141,7 @@ mod tests {
 
     fn input(scene: Option<&Scene>) -> ReferenceInput<'_> {
         let (inputs, resources, params) = Default::default();
-        ReferenceInput { inputs, resources, params, scene, surfaces: None }
+        ReferenceInput { inputs, resources, params, scene, moment: None, surfaces: None }
     }
 
     static ASKED: AtomicUsize = AtomicUsize::new(0);

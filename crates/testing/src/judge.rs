@@ -176,12 +176,14 @@ impl Computing<'_> {
         let scene = self.loaded.scene.as_ref();
         let reads_triangles = descriptor.scene.iter().any(|name| name == "triangles");
         let surfaces = scene.filter(|_| reads_triangles).map(|scene| scene.surfaces(time));
+        let moment = scene.map(|scene| scene.moment(time, aspect));
         let scene = scene.map(|scene| scene.twin(time, aspect));
         let input = ReferenceInput {
             inputs,
             resources: resources.collect(),
             params: params.map(|(param, setting)| (param.name.as_str(), setting.value(frame, time))).collect(),
             scene: scene.as_ref(),
+            moment: moment.as_ref(),
             surfaces: surfaces.as_ref(),
         };
         let outputs = self.answers.of(&descriptor.name, reference, &input)?;

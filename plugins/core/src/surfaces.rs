@@ -51,7 +51,7 @@ struct Hit {
 /// What is seen there.
 struct Seen {
     normal: DVec3,
-    /// Lambert reflectance, number of the Phong lobe.
+    /// Lambert reflectance, rank of the shininess.
     reflected: [f64; 4],
     /// Phong reflectance, shininess.
     shiny: [f64; 4],
@@ -113,7 +113,7 @@ fn seen(surfaces: &Surfaces, ray: &Ray, hit: Option<&Hit>) -> Seen {
     let [sr, sg, sb] = material.specular.to_array();
     Seen {
         normal: side * normal,
-        reflected: [r, g, b, f64::from(material.lobe)],
+        reflected: [r, g, b, f64::from(material.shininess_rank)],
         shiny: [sr, sg, sb, material.shininess],
     }
 }

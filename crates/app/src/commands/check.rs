@@ -18,7 +18,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Check) -> Result<(), 
         let mut found = Diagnostics::default();
         let name = path.to_string_lossy();
         let checked = if name.ends_with(".scene.ron") {
-            scene(path, &mut found)
+            scene(app, arguments, path, &mut found)
         } else if name.ends_with(".compare.ron") {
             comparison(app, arguments, path, &mut found)
         } else if name.ends_with(".test.ron") {
@@ -64,8 +64,9 @@ fn graph(app: &App, arguments: &Arguments, path: &Path, found: &mut Diagnostics)
     Ok(())
 }
 
-fn scene(path: &Path, found: &mut Diagnostics) -> Result<(), Failure> {
-    let (_, warnings) = Scene::load(path, &Overrides::new())?;
+fn scene(app: &App, arguments: &Arguments, path: &Path, found: &mut Diagnostics) -> Result<(), Failure> {
+    let registry = plugins::registry(app, arguments, &[path])?;
+    let (_, warnings) = Scene::load(path, &Overrides::new(), registry.extensions())?;
     found.extend(warnings);
     Ok(())
 }

@@ -122,7 +122,7 @@ fn need<'a>(pass: &'a RegistryPass, param: &ParamDescriptor) -> Option<&'a str> 
 }
 
 fn limit_text(limit: &Limit) -> String {
-    wrapped(&format!("{}: {}", limit.feature.name(), limit.text), "  ")
+    wrapped(&format!("{}: {}", limit.feature.name, limit.text), "  ")
 }
 
 fn preset_text(preset: &Preset) -> String {
@@ -276,7 +276,7 @@ fn preset_json(preset: &Preset) -> Value {
 }
 
 fn limit_json(limit: &Limit) -> Value {
-    json!({ "scene": limit.feature.name(), "text": limit.text })
+    json!({ "scene": limit.feature.name, "text": limit.text })
 }
 
 fn value_json(value: &ParamValue) -> Value {

@@ -458,7 +458,7 @@ fn homogeneous_passes_refuse_height_fog() {
     desk.put("fog.scene.ron", &scene(LAMP, FLOOR).replace("extinction", "scale_height: 5, extinction"));
     let fog = shipped("fog");
     let ended = desk.ends(2, &["render", fog.to_str().unwrap(), "--scene", "fog.scene.ron", "--size", SIZE]);
-    assert!(ended.err.contains("not-homogeneous") && ended.err.contains("airlight.homogeneous"), "{}", ended.err);
+    assert!(ended.err.contains("scene-refused") && ended.err.contains("airlight.homogeneous"), "{}", ended.err);
     assert!(ended.err.contains("fog.graph.ron:") && ended.err.contains("airlight.height_fog"), "{}", ended.err);
 }
 

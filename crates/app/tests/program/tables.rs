@@ -28,8 +28,11 @@ fn every_pass_is_documented() {
         }
     }
     let tables = desk.ends(0, &["passes", "surface_radiance.lobes"]).out;
-    assert!(tables.contains(&format!("tables of {} shininesses", tyndall_scene::SHININESSES_MAX)), "{tables}");
-    assert!(tables.contains(&format!("tables of {} spots", tyndall_scene::SPOTS_MAX)), "{tables}");
+    assert!(
+        tables.contains(&format!("tables of {} shininesses", tyndall_surface_radiance::SHININESSES_MAX)),
+        "{tables}"
+    );
+    assert!(tables.contains(&format!("tables of {} spots", tyndall_surface_radiance::SPOTS_MAX)), "{tables}");
     let phong = desk.ends(0, &["passes", "surface_radiance.phong"]).out;
     assert!(phong.contains("needs the input table"), "{phong}");
 }
@@ -47,7 +50,8 @@ fn more_lobes_than_tables_are_told() {
             format!("Spot(position: (0, 2, 0), direction: (0, -1, 0), intensity: (1, 1, 1), exponent: {})", i + 1)
         };
         let all = |one: &dyn Fn(usize) -> String, count| (0..count).map(one).collect::<Vec<_>>().join(", ");
-        let (balls, spots) = (tyndall_scene::SHININESSES_MAX + count, tyndall_scene::SPOTS_MAX + count);
+        let (balls, spots) =
+            (tyndall_surface_radiance::SHININESSES_MAX + count, tyndall_surface_radiance::SPOTS_MAX + count);
         let scene = format!(
             "(camera: (position: (0, 1, 5), look_at: (0, 1, 0)), medium: (extinction: (0.1, 0.1, 0.1)), lights: [{}], objects: [{}])",
             all(&spot, spots),

@@ -3,14 +3,14 @@
 #![allow(dead_code, missing_docs, clippy::unwrap_used, reason = "each test uses a part")]
 
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use tempfile::TempDir;
 use tyndall_document::{Diagnostics, Source, render_text};
 use tyndall_gpu::{Executor, FrameOptions, Gpu, PipelineCache, PortData, SceneBuffers};
 use tyndall_graph::{Graph, Overrides, Plan, PlanOptions, plan, read, validate};
 use tyndall_plugin::{Plugin, Registry, SearchPath, find_folders, shader_modules};
-use tyndall_scene::{SCENE_DATA, Scene};
+use tyndall_scene::{Extensions, Scene};
 
 /// The plugins that are compiled into the program.
 pub fn shipped() -> Vec<Plugin> {
@@ -31,7 +31,7 @@ pub fn unchecked_registry(paths: &[&Path]) -> Registry {
         paths.iter().map(|path| SearchPath { path: path.to_path_buf(), required: true }).collect();
     let folders = find_folders(&paths).unwrap();
     let shared = shader_modules(tyndall_shaders::MODULES, &[]).unwrap();
-    let registry = Registry::new(shipped(), folders, &shared, SCENE_DATA);
+    let registry = Registry::new(shipped(), folders, &shared);
     registry.with_picture_size(|path| tyndall_image::read(path).ok().map(|image| (image.width, image.height)))
 }
 
@@ -108,10 +108,16 @@ pub fn scene_text(lights: &str) -> String {
     )
 }
 
+/// What the shipped plugins add to scenes.
+fn extensions() -> &'static Arc<Extensions> {
+    static EXTENSIONS: OnceLock<Arc<Extensions>> = OnceLock::new();
+    EXTENSIONS.get_or_init(|| unchecked_registry(&[]).extensions().clone())
+}
+
 /// A scene of a file's text.
 pub fn scene_of(text: &str) -> Scene {
     let source = Source::new("test.scene.ron", text);
-    match Scene::from_source(&source, Path::new("."), &tyndall_scene::Overrides::new()) {
+    match Scene::from_source(&source, Path::new("."), &tyndall_scene::Overrides::new(), extensions()) {
         Ok((scene, _)) => scene,
         Err(mistakes) => panic!("{}", render_text(&mistakes, false)),
     }

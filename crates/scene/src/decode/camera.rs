@@ -3,10 +3,10 @@
 use glam::DVec3;
 use tyndall_document::{Code, Decoder, Diagnostic, Node};
 
-use super::values::{Range, animated, direction, number};
 use crate::animate::{Animated, least_length};
 use crate::codes::{CAMERA_ON_TARGET, UP_ALONG_VIEW};
 use crate::model::Camera;
+use crate::read::{Range, animated, direction, number};
 
 /// A sine of the angle between `up` and the view below this is none.
 const PARALLEL: f64 = 1e-9;

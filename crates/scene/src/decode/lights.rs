@@ -3,34 +3,38 @@
 use glam::DVec3;
 use tyndall_document::{Decoder, Fields, Node};
 
-use super::values::{Range, animated, animated_direction, animated_power, number, vector};
 use super::{given, variant};
 use crate::animate::Animated;
+use crate::field::Holder;
 use crate::model::{Light, LightKind, Placement};
+use crate::read::{Range, SceneReader, animated, animated_direction, animated_power, number, vector};
+
+pub(super) const POINT_FIELDS: &[&str] = &["position", "intensity", "radius"];
+pub(super) const SPOT_FIELDS: &[&str] = &["position", "direction", "intensity", "exponent", "cutoff", "radius"];
+pub(super) const DIRECTIONAL_FIELDS: &[&str] = &["direction", "irradiance", "radius"];
 
 /// All lights; those with mistakes are left out, their mistakes reported.
-pub(super) fn lights(decoder: &mut Decoder, node: &Node) -> Option<Vec<Light>> {
+pub(super) fn lights(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Vec<Light>> {
     let items = decoder.list(node)?;
     Some(items.iter().filter_map(|item| light(decoder, item)).collect())
 }
 
-fn light(decoder: &mut Decoder, node: &Node) -> Option<Light> {
+fn light(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Light> {
     variant(decoder, node, "a light", &[("Point", point), ("Spot", spot), ("Directional", directional)])
 }
 
-fn point(decoder: &mut Decoder, node: &Node) -> Option<Light> {
-    let fields = decoder.fields(node, "a Point", &["position", "intensity", "radius"])?;
+fn point(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Light> {
+    let (fields, own) = decoder.fields_of(Holder::Light, node, "a Point", POINT_FIELDS)?;
     let position = needed(decoder, &fields, "position", animated);
     let intensity = needed(decoder, &fields, "intensity", animated_power);
     let radius = radius(decoder, &fields);
     let direction = Animated::Constant(DVec3::NEG_Y);
     let placement = Placement::World { position: position?, direction };
-    Some(Light { kind: LightKind::Point, intensity: intensity?, radius: radius?, placement })
+    Some(Light { kind: LightKind::Point, intensity: intensity?, radius: radius?, placement, fields: own? })
 }
 
-fn spot(decoder: &mut Decoder, node: &Node) -> Option<Light> {
-    let known = ["position", "direction", "intensity", "exponent", "cutoff", "radius"];
-    let fields = decoder.fields(node, "a Spot", &known)?;
+fn spot(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Light> {
+    let (fields, own) = decoder.fields_of(Holder::Light, node, "a Spot", SPOT_FIELDS)?;
     let position = needed(decoder, &fields, "position", animated);
     let direction = needed(decoder, &fields, "direction", animated_direction);
     let intensity = needed(decoder, &fields, "intensity", animated_power);
@@ -39,18 +43,18 @@ fn spot(decoder: &mut Decoder, node: &Node) -> Option<Light> {
     let radius = radius(decoder, &fields);
     let kind = LightKind::Spot { exponent: exponent?, cutoff: cutoff?.to_radians() };
     let placement = Placement::World { position: position?, direction: direction? };
-    Some(Light { kind, intensity: intensity?, radius: radius?, placement })
+    Some(Light { kind, intensity: intensity?, radius: radius?, placement, fields: own? })
 }
 
-fn directional(decoder: &mut Decoder, node: &Node) -> Option<Light> {
-    let fields = decoder.fields(node, "a Directional", &["direction", "irradiance", "radius"])?;
+fn directional(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Light> {
+    let (fields, own) = decoder.fields_of(Holder::Light, node, "a Directional", DIRECTIONAL_FIELDS)?;
     let direction = needed(decoder, &fields, "direction", animated_direction);
     let irradiance = needed(decoder, &fields, "irradiance", |d, n, name| {
         vector(d, n, name, Range::NotNegative).map(Animated::Constant)
     });
     let radius = radius(decoder, &fields);
     let placement = Placement::World { position: Animated::Constant(DVec3::ZERO), direction: direction? };
-    Some(Light { kind: LightKind::Directional, intensity: irradiance?, radius: radius?, placement })
+    Some(Light { kind: LightKind::Directional, intensity: irradiance?, radius: radius?, placement, fields: own? })
 }
 
 fn needed(

@@ -5,9 +5,13 @@ use tyndall_document::{Decoder, Diagnostic, Fields, MISSING_FIELD, Node, Span, V
 use tyndall_shaders::phase::{PHASE_FUNCTIONS, PhaseFunction};
 use tyndall_shaders::scene::{HeightFog, Phase};
 
-use super::values::{Range, number, vector};
 use super::{given, parts_of, path};
+use crate::field::{Fields as PluginFields, Holder};
 use crate::model::Medium;
+use crate::read::{Range, SceneReader, number, vector};
+
+pub(super) const FIELDS: &[&str] =
+    &["extinction", "albedo", "phase", "scale_height", "base_height", "ambient", "emission"];
 
 /// What a scene file says of the medium.
 #[derive(Debug)]
@@ -21,11 +25,12 @@ pub(crate) struct MediumDraft {
     pub ambient: DVec3,
     /// Radiance that the medium emits where it is thick and black, W/(sr m²).
     pub emission: DVec3,
+    /// Those that plugins bring.
+    pub fields: PluginFields,
 }
 
-pub(super) fn medium(decoder: &mut Decoder, node: &Node) -> Option<MediumDraft> {
-    let known = ["extinction", "albedo", "phase", "scale_height", "base_height", "ambient", "emission"];
-    let fields = decoder.fields(node, "a medium", &known)?;
+pub(super) fn medium(decoder: &mut SceneReader<'_>, node: &Node) -> Option<MediumDraft> {
+    let (fields, own) = decoder.fields_of(Holder::Medium, node, "a medium", FIELDS)?;
     let mut colour = |name: &str, default: DVec3, range: Range| {
         given(fields.get(name), default, |n| vector(decoder, n, name, range))
     };
@@ -40,7 +45,8 @@ pub(super) fn medium(decoder: &mut Decoder, node: &Node) -> Option<MediumDraft> 
         PhaseDraft::File(path, span) => (Phase::Isotropic, Some((path, span))),
     };
     let medium = Medium { extinction: extinction?, albedo: albedo?, phase };
-    Some(MediumDraft { medium, phase_file, height_fog: height_fog?, ambient: ambient?, emission: emission? })
+    let (ambient, emission, fields) = (ambient?, emission?, own?);
+    Some(MediumDraft { medium, phase_file, height_fog: height_fog?, ambient, emission, fields })
 }
 
 fn height_fog(decoder: &mut Decoder, fields: &Fields) -> Option<HeightFog> {

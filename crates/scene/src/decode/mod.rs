@@ -4,7 +4,8 @@ mod camera;
 mod lights;
 mod medium;
 mod objects;
-mod values;
+
+use std::path::PathBuf;
 
 use glam::DVec3;
 use tyndall_document::{Decoder, Node, Span, Value};
@@ -12,8 +13,9 @@ use tyndall_document::{Decoder, Node, Span, Value};
 pub(crate) use self::camera::CameraDraft;
 pub(crate) use self::medium::MediumDraft;
 pub(crate) use self::objects::{MeshDraft, ObjectDraft};
-use self::values::{Range, vector};
+use crate::field::{Fields, Holder};
 use crate::model::Light;
+use crate::read::{Range, SceneReader, vector};
 
 /// What a scene file says, before the files that it names are read.
 #[derive(Debug)]
@@ -24,11 +26,30 @@ pub(crate) struct Draft {
     /// `None` where the field is left out: then the lights of glTF files count.
     pub lights: Option<Vec<Light>>,
     pub objects: Vec<ObjectDraft>,
+    /// Sections that plugins bring.
+    pub fields: Fields,
+    /// Files that fields of plugins named.
+    pub files: Vec<PathBuf>,
+}
+
+const SCENE_FIELDS: &[&str] = &["camera", "medium", "background", "lights", "objects"];
+
+/// The fields of this crate in a scene file's parts, which no plugin can bring.
+pub(crate) fn core_fields(holder: Holder) -> impl Iterator<Item = &'static str> {
+    let lists: &[&[&str]] = match holder {
+        Holder::Scene => &[SCENE_FIELDS],
+        Holder::Medium => &[medium::FIELDS],
+        Holder::Light => &[lights::POINT_FIELDS, lights::SPOT_FIELDS, lights::DIRECTIONAL_FIELDS],
+        Holder::Object => &[objects::OBJECT_FIELDS],
+        Holder::Material => &[objects::MATERIAL_FIELDS],
+    };
+    lists.iter().flat_map(|list| list.iter().copied())
 }
 
 /// Decodes a scene file's tree. The result is usable only where nothing was reported as an error.
-pub(crate) fn scene(decoder: &mut Decoder, root: &Node) -> Option<Draft> {
-    let fields = decoder.fields(root, "a scene", &["camera", "medium", "background", "lights", "objects"])?;
+pub(crate) fn scene(mut reader: SceneReader<'_>, root: &Node) -> Option<Draft> {
+    let decoder = &mut reader;
+    let (fields, own) = decoder.fields_of(Holder::Scene, root, "a scene", SCENE_FIELDS)?;
     let none = CameraDraft::Model { vertical_fov: None };
     let camera = given(fields.get("camera"), none, |n| camera::camera(decoder, n));
     let medium = given(fields.get("medium"), None, |n| medium::medium(decoder, n).map(Some));
@@ -36,7 +57,9 @@ pub(crate) fn scene(decoder: &mut Decoder, root: &Node) -> Option<Draft> {
         given(fields.get("background"), DVec3::ZERO, |n| vector(decoder, n, "background", Range::NotNegative));
     let lights = given(fields.get("lights"), None, |n| lights::lights(decoder, n).map(Some));
     let objects = given(fields.get("objects"), Vec::new(), |n| objects::objects(decoder, n));
-    Some(Draft { camera: camera?, medium: medium?, background: background?, lights: lights?, objects: objects? })
+    let (camera, medium, background) = (camera?, medium?, background?);
+    let (lights, objects, fields) = (lights?, objects?, own?);
+    Some(Draft { camera, medium, background, lights, objects, fields, files: reader.into_files() })
 }
 
 /// The default where a field is left out, else what is read of it.
@@ -48,10 +71,10 @@ fn given<T>(node: Option<&Node>, default: T, read: impl FnOnce(&Node) -> Option<
 }
 
 /// Reads the content of a variant.
-type Reader<T> = fn(&mut Decoder, &Node) -> Option<T>;
+type Reader<T> = fn(&mut SceneReader<'_>, &Node) -> Option<T>;
 
 /// Reads a variant by the reader that stands beside its name; one without content has `()` read.
-fn variant<T>(decoder: &mut Decoder, node: &Node, what: &str, readers: &[(&str, Reader<T>)]) -> Option<T> {
+fn variant<T>(decoder: &mut SceneReader<'_>, node: &Node, what: &str, readers: &[(&str, Reader<T>)]) -> Option<T> {
     let names: Vec<&str> = readers.iter().map(|(name, _)| *name).collect();
     let (name, content) = decoder.variant(node, what, &names)?;
     let (_, read) = readers.iter().find(|(known, _)| *known == name)?;

@@ -3,12 +3,16 @@
 use glam::{DQuat, DVec3};
 use tyndall_document::{Decoder, Diagnostic, Fields, Node, OUT_OF_RANGE, Span};
 
-use super::values::{Range, animated, direction, number, numbers, vector};
 use super::{Reader, given, parts_of, path, variant};
 use crate::animate::Animated;
 use crate::codes::BRIGHTER_THAN_WHITE;
+use crate::field::{Fields as PluginFields, Holder};
 use crate::model::Material;
 use crate::primitives::Primitive;
+use crate::read::{Range, SceneReader, animated, direction, number, numbers, vector};
+
+pub(super) const OBJECT_FIELDS: &[&str] = &["mesh", "translation", "rotation", "scale", "material", "casts_shadow"];
+pub(super) const MATERIAL_FIELDS: &[&str] = &["diffuse", "specular", "shininess"];
 
 /// What a scene file says of an object.
 #[derive(Debug)]
@@ -19,6 +23,8 @@ pub(crate) struct ObjectDraft {
     pub scale: f64,
     pub material: Option<Material>,
     pub casts_shadow: bool,
+    /// Those that plugins bring.
+    pub fields: PluginFields,
 }
 
 /// What a scene file says of a mesh.
@@ -31,14 +37,13 @@ pub(crate) enum MeshDraft {
 }
 
 /// All objects; those with mistakes are left out, their mistakes reported.
-pub(super) fn objects(decoder: &mut Decoder, node: &Node) -> Option<Vec<ObjectDraft>> {
+pub(super) fn objects(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Vec<ObjectDraft>> {
     let items = decoder.list(node)?;
     Some(items.iter().filter_map(|item| object(decoder, item)).collect())
 }
 
-fn object(decoder: &mut Decoder, node: &Node) -> Option<ObjectDraft> {
-    let known = ["mesh", "translation", "rotation", "scale", "material", "casts_shadow"];
-    let fields = decoder.fields(node, "an object", &known)?;
+fn object(decoder: &mut SceneReader<'_>, node: &Node) -> Option<ObjectDraft> {
+    let (fields, own) = decoder.fields_of(Holder::Object, node, "an object", OBJECT_FIELDS)?;
     let mesh = fields.required(decoder, "mesh").and_then(|n| mesh(decoder, n));
     let translation =
         given(fields.get("translation"), Animated::Constant(DVec3::ZERO), |n| animated(decoder, n, "translation"));
@@ -53,6 +58,7 @@ fn object(decoder: &mut Decoder, node: &Node) -> Option<ObjectDraft> {
         scale: scale?,
         material: material?,
         casts_shadow: casts_shadow?,
+        fields: own?,
     })
 }
 
@@ -63,8 +69,8 @@ fn rotation(decoder: &mut Decoder, node: &Node) -> Option<DQuat> {
     Some(DQuat::from_axis_angle(axis?.normalize(), angle?.to_radians()))
 }
 
-fn material(decoder: &mut Decoder, node: &Node) -> Option<Material> {
-    let fields = decoder.fields(node, "a material", &["diffuse", "specular", "shininess"])?;
+fn material(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Material> {
+    let (fields, own) = decoder.fields_of(Holder::Material, node, "a material", MATERIAL_FIELDS)?;
     let default = Material::default();
     let mut color = |name, default| given(fields.get(name), default, |n| vector(decoder, n, name, Range::NotNegative));
     let diffuse = color("diffuse", default.diffuse);
@@ -75,29 +81,30 @@ fn material(decoder: &mut Decoder, node: &Node) -> Option<Material> {
         && diffuse.max_element() > 1.0
     {
         let message = format!("`diffuse` {diffuse} reflects more light than it receives");
-        decoder.report(Diagnostic::warning(BRIGHTER_THAN_WHITE, decoder.place(node.span), message));
+        let place = decoder.place(node.span);
+        decoder.report(Diagnostic::warning(BRIGHTER_THAN_WHITE, place, message));
     }
-    Some(Material { diffuse: diffuse?, specular: specular?, shininess: shininess?, texture: None })
+    Some(Material { diffuse: diffuse?, specular: specular?, shininess: shininess?, texture: None, fields: own? })
 }
 
-fn mesh(decoder: &mut Decoder, node: &Node) -> Option<MeshDraft> {
+fn mesh(decoder: &mut SceneReader<'_>, node: &Node) -> Option<MeshDraft> {
     let meshes: [(&str, Reader<MeshDraft>); 5] =
         [("Sphere", sphere), ("Box", cuboid), ("Torus", torus), ("Plane", plane), ("File", file)];
     variant(decoder, node, "a mesh", &meshes)
 }
 
-fn sphere(decoder: &mut Decoder, node: &Node) -> Option<MeshDraft> {
+fn sphere(decoder: &mut SceneReader<'_>, node: &Node) -> Option<MeshDraft> {
     let fields = decoder.fields(node, "a Sphere", &["radius"])?;
     let radius = measure(decoder, &fields, "radius")?;
     Some(MeshDraft::Primitive(Primitive::Sphere { radius }))
 }
 
-fn cuboid(decoder: &mut Decoder, node: &Node) -> Option<MeshDraft> {
+fn cuboid(decoder: &mut SceneReader<'_>, node: &Node) -> Option<MeshDraft> {
     let size = size(decoder, node, "a Box")?;
     Some(MeshDraft::Primitive(Primitive::Box { size }))
 }
 
-fn torus(decoder: &mut Decoder, node: &Node) -> Option<MeshDraft> {
+fn torus(decoder: &mut SceneReader<'_>, node: &Node) -> Option<MeshDraft> {
     let fields = decoder.fields(node, "a Torus", &["major", "minor"])?;
     let (major, minor) = (measure(decoder, &fields, "major"), measure(decoder, &fields, "minor"));
     let (major, minor) = (major?, minor?);
@@ -110,12 +117,12 @@ fn torus(decoder: &mut Decoder, node: &Node) -> Option<MeshDraft> {
     None
 }
 
-fn plane(decoder: &mut Decoder, node: &Node) -> Option<MeshDraft> {
+fn plane(decoder: &mut SceneReader<'_>, node: &Node) -> Option<MeshDraft> {
     let size = size(decoder, node, "a Plane")?;
     Some(MeshDraft::Primitive(Primitive::Plane { size }))
 }
 
-fn file(decoder: &mut Decoder, node: &Node) -> Option<MeshDraft> {
+fn file(decoder: &mut SceneReader<'_>, node: &Node) -> Option<MeshDraft> {
     let (path, span) = path(decoder, node, "File(\"model.glb\")")?;
     Some(MeshDraft::File(path, span))
 }

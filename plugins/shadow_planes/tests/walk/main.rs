@@ -1,4 +1,4 @@
-//! The walk of `shaders/shadows.wgsl`, run on a GPU over thousands of rays, against brute force over all triangles in
+//! The walk of `shadows.wgsl`, run on a GPU over thousands of rays, against brute force over all triangles in
 //! double precision: triangles without order, strips and fans that share vertices, open, of any winding, intersecting.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
@@ -29,10 +29,15 @@ struct Case {
     light: u32,
 }
 
-const SHADER: &str = "
+const FILES: [(&str, &str); 2] = [
+    ("shadows.wgsl", include_str!("../../shadows.wgsl")),
+    ("shadow_data.wgsl", include_str!("../../shadow_data.wgsl")),
+];
+
+const SHADER: &str = r#"
 #import scene
 #import ray
-#import shadows
+#import "shadows.wgsl"
 
 struct Case {
     direction: vec3<f32>,
@@ -61,7 +66,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x < arrayLength(&cases) {
         results[id.x] = vec4<f32>(sum, select(0.0, 1.0, found.walk.depth <= 0));
     }
-}";
+}"#;
 
 /// Rays from the eye of a setting, each with where it meets the first triangle.
 fn rays(setting: &Setting, random: &mut Random, count: usize) -> Vec<Ray> {
@@ -101,7 +106,7 @@ fn share_of_wrong_rays(what: &str, setting: &Setting, random: &mut Random, hard:
     let cases: Vec<Case> = rays.iter().enumerate().map(case).collect();
     let names = ["shadow_lights", "shadow_slices", "shadow_crossings", "shadow_edges"];
     let inputs = names.map(|name| (name, encoded.bytes(name)));
-    let found = Probe::new(SHADER, &[], &[]).run_with(bytemuck::cast_slice(&cases), cases.len(), &inputs);
+    let found = Probe::new(SHADER, &FILES, &[]).run_with(bytemuck::cast_slice(&cases), cases.len(), &inputs);
     let (mut wrong, mut most) = (0, 0);
     for ((ray, case), found) in rays.iter().zip(&cases).zip(&found) {
         let way = f64::from(case.way);

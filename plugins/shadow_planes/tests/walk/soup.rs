@@ -1,10 +1,13 @@
 //! Scenes of triangles without order, as glTF files.
 
 use std::path::Path;
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
 use tyndall_document::{Source, render_text};
-use tyndall_scene::{Overrides, Scene};
+use tyndall_plugin::Registry;
+use tyndall_scene::{Extensions, Overrides, Scene};
+use tyndall_shader::Library;
 use tyndall_shaders::scene::Caster;
 
 /// Numbers that look random, the same in every run.
@@ -94,8 +97,17 @@ impl Setting {
     }
 }
 
+/// What the plugin adds to scenes.
+fn extensions() -> &'static Arc<Extensions> {
+    static EXTENSIONS: OnceLock<Arc<Extensions>> = OnceLock::new();
+    EXTENSIONS.get_or_init(|| {
+        let registry = Registry::new(vec![tyndall_shadow_planes::plugin()], Vec::new(), &Library::default());
+        registry.extensions().clone()
+    })
+}
+
 pub fn scene_of(text: &str, folder: &Path) -> Scene {
-    match Scene::from_source(&Source::new("test.scene.ron", text), folder, &Overrides::new()) {
+    match Scene::from_source(&Source::new("test.scene.ron", text), folder, &Overrides::new(), extensions()) {
         Ok((scene, _)) => scene,
         Err(mistakes) => panic!("{}", render_text(&mistakes, false)),
     }

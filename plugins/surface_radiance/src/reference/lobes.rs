@@ -4,8 +4,10 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
+use tyndall_plugin::scene::Scene;
 use tyndall_plugin::{Outputs, PortData, ReferenceInput, each_texel};
-use tyndall_shaders::scene::CosineLobe;
+
+use crate::cosine_lobes::{self, CosineLobes};
 
 use super::around::{FIRST_NODE, NODE_STEP};
 
@@ -15,8 +17,27 @@ const AZIMUTHS: u32 = 16;
 const ACROSS_HALF: i32 = 40;
 const ACROSS_STEP: f64 = 0.16;
 const REACH_EXPONENT: f64 = 18.0;
+
+/// A lobe in double precision.
+#[derive(Clone, Copy)]
+pub(super) struct Lobe {
+    pub exponent: f64,
+    pub cos_cutoff: f64,
+    pub is_spot: bool,
+}
+
 /// Lambert's.
-const LAMBERT: CosineLobe = CosineLobe { exponent: 1.0, cos_cutoff: 0.0, is_spot: false };
+const LAMBERT: Lobe = Lobe { exponent: 1.0, cos_cutoff: 0.0, is_spot: false };
+
+/// Those of the table's layers, Lambert's first.
+pub(super) fn lobes_of(scene: &Scene) -> Vec<Lobe> {
+    let lobe = |lobe: &cosine_lobes::CosineLobe| Lobe {
+        exponent: f64::from(lobe.exponent),
+        cos_cutoff: f64::from(lobe.cos_cutoff),
+        is_spot: lobe.is_spot != 0,
+    };
+    std::iter::once(LAMBERT).chain(CosineLobes::of(scene).items.iter().map(lobe)).collect()
+}
 
 /// How angles stand in a layer: `toward·log2(1 + u·factor) + away·u⁴`, u = sin(θ/2).
 pub(super) struct AngleAxis {
@@ -52,11 +73,10 @@ impl AngleAxis {
 /// Every layer of the table.
 pub(crate) fn lobes(input: &ReferenceInput<'_>) -> Outputs {
     let (glow, coefficients) = (input.input("glow")?, input.input("coefficients")?);
-    let ([width, height, layers], scene) = (input.extent("table")?, input.scene()?);
-    let lobes: Vec<&CosineLobe> = std::iter::once(&LAMBERT).chain(&scene.cosine_lobes).collect();
+    let ([width, height, layers], lobes) = (input.extent("table")?, lobes_of(input.moment()?.scene));
     // Of the edges between columns, of which there is one more.
     let columns = each_texel([width + 1, 1, lobes.len() as u32], |[x, _, layer]| {
-        let lobe = lobes[layer as usize];
+        let lobe = &lobes[layer as usize];
         let axis = AngleAxis::new(lobe.exponent, if lobe.is_spot { lobe.cos_cutoff } else { -1.0 }, width);
         over_lobe(lobe, axis.angle_at(f64::from(x)), glow, coefficients)
     });
@@ -72,7 +92,7 @@ pub(crate) fn lobes(input: &ReferenceInput<'_>) -> Outputs {
 }
 
 /// Of each row of the glow.
-fn over_lobe(lobe: &CosineLobe, theta: f64, glow: &PortData, coefficients: &PortData) -> Vec<f64> {
+fn over_lobe(lobe: &Lobe, theta: f64, glow: &PortData, coefficients: &PortData) -> Vec<f64> {
     let nodes = across(lobe, theta, glow.width());
     let value = |row: u32| {
         let sum = if lobe.exponent <= ZONAL_MOST && !lobe.is_spot {
@@ -100,7 +120,7 @@ fn zonal_sum(n: f64, theta: f64, coefficient: impl Fn(u32) -> f64, terms: u32) -
 }
 
 /// Places among the nodes of the glow across a lobe, each with its weight.
-fn across(lobe: &CosineLobe, theta: f64, nodes: u32) -> Vec<(f64, f64)> {
+fn across(lobe: &Lobe, theta: f64, nodes: u32) -> Vec<(f64, f64)> {
     let least = (-REACH_EXPONENT / lobe.exponent.max(1e-3)).exp().max(lobe.cos_cutoff);
     let reach = if lobe.exponent == 0.0 { lobe.cos_cutoff } else { least }.acos();
     let low = (theta - reach).max(0.0);
@@ -119,7 +139,7 @@ fn across(lobe: &CosineLobe, theta: f64, nodes: u32) -> Vec<(f64, f64)> {
 }
 
 /// The lobe around the way to the light.
-fn azimuthal_sum(lobe: &CosineLobe, theta: f64, gamma: f64) -> f64 {
+fn azimuthal_sum(lobe: &Lobe, theta: f64, gamma: f64) -> f64 {
     let n = lobe.exponent;
     let nearest = 2.0 * (0.5 * (gamma - theta)).sin().powi(2);
     let swing = 2.0 * (gamma.sin() * theta.sin()).max(0.0);

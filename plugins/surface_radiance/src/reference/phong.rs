@@ -5,30 +5,32 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use tyndall_plugin::{Outputs, PortData, ReferenceInput};
 use tyndall_shaders::lights::incident;
-use tyndall_shaders::scene::{CosineLobe, HeightFog, Light, Scene};
+use tyndall_shaders::scene::{HeightFog, Light, Scene};
 
 use super::around::row_of;
-use super::lobes::AngleAxis;
+use super::lobes::{AngleAxis, Lobe, lobes_of};
 use super::{Surface, of_surfaces, rgb, straight};
+use crate::cosine_lobes::CosineLobes;
 
 /// Light of every light, as the parameters ask for.
 pub(crate) fn phong(input: &ReferenceInput<'_>) -> Outputs {
     let table = if input.is_on("scattered") { Some(input.input("table")?) } else { None };
     let direct = input.is_on("direct");
+    let layers = Layers::of(input.moment()?.scene);
     of_surfaces(input, &HeightFog::NONE, |scene, light, surface| {
         let mut sum = DVec3::ZERO;
         if direct {
             sum += straight(scene, &HeightFog::NONE, light, surface);
         }
         if let Some(table) = table {
-            sum += scattered(scene, light, surface, table);
+            sum += scattered(scene, light, surface, &layers, table);
         }
         sum
     })
 }
 
 /// What the medium scatters to a surface on the way.
-fn scattered(scene: &Scene, light: &Light, surface: &Surface, table: &PortData) -> DVec3 {
+fn scattered(scene: &Scene, light: &Light, surface: &Surface, layers: &Layers, table: &PortData) -> DVec3 {
     let (medium, arriving) = (&scene.medium, incident(light, surface.position));
     let is_sun = matches!(light, Light::Directional { .. });
     let on_axis = match *light {
@@ -46,11 +48,11 @@ fn scattered(scene: &Scene, light: &Light, surface: &Surface, table: &PortData) 
         of(axis, layer, &AngleAxis::new(n, -1.0, table.width())) * 2.0 * PI / (n + 1.0)
     };
     let lambert = of_lobe(1.0, surface.normal, 0);
-    let phong = of_lobe(surface.phong[3], surface.mirrored, surface.diffuse[3] as u32);
+    let phong = of_lobe(surface.phong[3], surface.mirrored, layers.of_shininesses[surface.diffuse[3] as usize]);
     let all_around = match *light {
         Light::Spot { direction, exponent, cutoff, .. } => {
             let cos_cutoff = cutoff.to_radians().cos();
-            let layer = layer_of_spot(&scene.cosine_lobes, exponent, cos_cutoff);
+            let layer = layers.of_spot(exponent, cos_cutoff);
             of(-direction, layer, &AngleAxis::new(exponent, cos_cutoff, table.width()))
         }
         _ => DVec3::ONE,
@@ -62,11 +64,25 @@ fn scattered(scene: &Scene, light: &Light, surface: &Surface, table: &PortData) 
     scattering * reflected * all_around * on_axis * left
 }
 
-/// The layer of the spot among the lobes of the scene that is as it is.
-fn layer_of_spot(lobes: &[CosineLobe], exponent: f64, cos_cutoff: f64) -> u32 {
-    let off = |lobe: &CosineLobe| (lobe.exponent - exponent).abs() + (lobe.cos_cutoff - cos_cutoff).abs();
-    let spots = (1..).zip(lobes).filter(|(_, lobe)| lobe.is_spot);
-    spots.min_by(|a, b| off(a.1).total_cmp(&off(b.1))).map_or(0, |(layer, _)| layer)
+/// The layers of the table.
+struct Layers {
+    lobes: Vec<Lobe>,
+    /// By their rank, from 1.
+    of_shininesses: Vec<u32>,
+}
+
+impl Layers {
+    fn of(scene: &tyndall_plugin::scene::Scene) -> Self {
+        let of_shininesses = CosineLobes::of(scene).shininess_layers(&scene.shininesses());
+        Self { lobes: lobes_of(scene), of_shininesses }
+    }
+
+    /// That of the spot among the lobes of the scene that is as it is.
+    fn of_spot(&self, exponent: f64, cos_cutoff: f64) -> u32 {
+        let off = |lobe: &Lobe| (lobe.exponent - exponent).abs() + (lobe.cos_cutoff - cos_cutoff).abs();
+        let spots = (0..).zip(&self.lobes).filter(|(_, lobe)| lobe.is_spot);
+        spots.min_by(|a, b| off(a.1).total_cmp(&off(b.1))).map_or(0, |(layer, _)| layer)
+    }
 }
 
 /// The table between the corners of a cell, at an angle's coordinate and a depth; without one in the last row.

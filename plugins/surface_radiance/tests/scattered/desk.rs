@@ -10,7 +10,7 @@ use tyndall_document::{Diagnostics, Source, render_text};
 use tyndall_gpu::{Executor, FrameOptions, Gpu, PipelineCache, SceneBuffers};
 use tyndall_graph::{Overrides, PlanOptions, plan, read, validate};
 use tyndall_plugin::{Registry, SearchPath, find_folders, shader_modules};
-use tyndall_scene::{SCENE_DATA, Scene};
+use tyndall_scene::Scene;
 
 pub const LIGHTS: usize = 8;
 pub const ANGLES: usize = 20;
@@ -50,9 +50,18 @@ struct Params {
     shininess: f32,
 }
 
+struct Layers {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<u32>,
+}
+
 var<uniform> params: Params;
 var<uniform> medium: Medium;
 var<storage, read> lights: Lights;
+var<storage, read> spot_layers: Layers;
 var table: texture_2d_array<f32>;
 var radiance: texture_storage_2d<rgba32float, write>;
 
@@ -72,7 +81,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let is_lambert = params.layer == 0u;
     let surface = Surface(zero, select(zero, one, is_lambert), select(one, zero, is_lambert), params.shininess,
         lookup_of(axis, 0u, 1.0, table), lookup_of(axis, params.layer, params.shininess, table));
-    textureStore(radiance, id.xy, vec4<f32>(reflected(light, medium, surface, false, true, table), 1.0));
+    textureStore(radiance, id.xy, vec4<f32>(reflected(light, spot_layers.items[id.x], medium, surface, false, true, table), 1.0));
 }
 ";
 
@@ -96,7 +105,7 @@ impl Desk {
         std::fs::write(folder.join("turn.wgsl"), SHADER).unwrap();
         let folders = find_folders(&[SearchPath { path: plugins.path().to_path_buf(), required: true }]).unwrap();
         let shared = shader_modules(tyndall_shaders::MODULES, &[]).unwrap();
-        let registry = Registry::new(vec![tyndall_surface_radiance::plugin()], folders, &shared, SCENE_DATA);
+        let registry = Registry::new(vec![tyndall_surface_radiance::plugin()], folders, &shared);
         let turns: String = shininesses
             .iter()
             .enumerate()
@@ -119,7 +128,8 @@ impl Desk {
             "(camera: (position: (0.0, 0.0, 1.0), look_at: (0.0, 0.0, 0.0)), medium: ({medium}), lights: [{lights}], objects: [{objects}])"
         );
         let source = Source::new("test.scene.ron", text);
-        let (scene, _) = Scene::from_source(&source, Path::new("."), &tyndall_scene::Overrides::new())
+        let overrides = tyndall_scene::Overrides::new();
+        let (scene, _) = Scene::from_source(&source, Path::new("."), &overrides, self.registry.extensions())
             .unwrap_or_else(|mistakes| panic!("{}", render_text(&mistakes, false)));
         let mut out = Diagnostics::default();
         let file = read(&Source::new("test.graph.ron", self.graph.as_str()), &mut out);

@@ -1,5 +1,5 @@
 // Which points of a view ray a light does not reach, from the triangles that cast shadows alone: brute force but for a
-// hierarchy of boxes (crates/scene/src/occluders.rs builds it). Silhouettes have no part in it.
+// hierarchy of boxes (src/occluders.rs builds it). Silhouettes have no part in it.
 //
 // Points are asked for by 32, as bits, so that a walk down the hierarchy serves them all: software Vulkan ends all loops
 // of a thread after 65,535 rounds, and a walk for each point of a fine march would come to more. The shadow of
@@ -7,9 +7,7 @@
 
 #import scene
 #import ray
-
-var<storage, read> occluder_nodes: OccluderNodes;
-var<storage, read> occluder_corners: OccluderCorners;
+#import "occluder_data.wgsl"
 
 // Whether a walk ended before it was done.
 var<private> occluders_missed: bool = false;

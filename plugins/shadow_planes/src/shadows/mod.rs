@@ -1,13 +1,14 @@
 //! What passes need to know where along a view ray a light is hidden: `shadow_lights`, `shadow_slices`,
-//! `shadow_crossings` and `shadow_edges` of `shaders/scene.wgsl`.
+//! `shadow_crossings` and `shadow_edges` of `shadow_data.wgsl`.
 //!
 //! A point of a ray is in shadow where there is a triangle between it and the light. Along the ray the number of such
 //! triangles changes where the ray passes behind an edge that has more triangles on one side than on the other, as the
 //! light sees it (or where the ray meets a triangle, and there it ends). So the silhouettes of the casters, sorted by the
 //! angle about the axis from light to eye, and the number at the eye are all that is needed, and the count is exact
-//! whatever overlaps, nests, intersects or is open. `shaders/shadows.wgsl` walks them.
+//! whatever overlaps, nests, intersects or is open. `shadows.wgsl` walks them.
 
 mod eye;
+mod layout;
 mod silhouette;
 mod slices;
 mod spans;
@@ -18,18 +19,26 @@ use tyndall_shaders::shadows::{Source, edge_touches};
 use self::eye::{AtEye, EdgesAtEye};
 use self::silhouette::{Casters, SilhouetteEdge};
 use self::slices::{LightFrame, PlacedEdge};
-use crate::encode::list;
-use crate::frame::{Frame, FrameLight};
-use crate::layout::{ShadowCrossing, ShadowEdge, ShadowLight};
-use crate::model::LightKind;
-use crate::scene::Scene;
+use tyndall_plugin::scene::layout::Shape;
+use tyndall_plugin::scene::model::LightKind;
+use tyndall_plugin::scene::{Buffers, Encoder, FrameLight, Moment, Part, Scene, SceneData};
 
-/// The names of the scene data that are worked out here, in the order of [`Shadows::encode`].
-pub(crate) const SHADOW_DATA: [&str; 4] = ["shadow_lights", "shadow_slices", "shadow_crossings", "shadow_edges"];
+use self::layout::{ShadowCrossing, ShadowEdge, ShadowLight};
+
+/// The scene data that are worked out here.
+pub(crate) fn data() -> SceneData {
+    let items = vec![
+        ("shadow_lights", Shape::list::<ShadowLight>()),
+        ("shadow_slices", Shape::list::<u32>()),
+        ("shadow_crossings", Shape::list::<ShadowCrossing>()),
+        ("shadow_edges", Shape::list::<ShadowEdge>()),
+    ];
+    SceneData::kept(items, &[Part::Camera, Part::Lights, Part::Geometry], |scene| Box::new(Shadows::new(scene)))
+}
 
 /// What is kept from frame to frame.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Shadows {
+#[derive(Debug, Default)]
+struct Shadows {
     casters: Casters,
     /// World.
     positions: Vec<DVec3>,
@@ -37,7 +46,7 @@ pub(crate) struct Shadows {
 }
 
 /// A light and the casters as it sees them: that does not change with the eye.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug)]
 struct Lit {
     source: Source,
     facing: Vec<i8>,
@@ -45,13 +54,11 @@ struct Lit {
 }
 
 impl Shadows {
-    pub(crate) fn new(scene: &Scene) -> Shadows {
+    fn new(scene: &Scene) -> Shadows {
         Shadows { casters: Casters::of(scene), ..Default::default() }
     }
 
-    /// The bytes of each of [`SHADOW_DATA`] for these vertices (world) and this frame.
-    pub(crate) fn encode(&mut self, positions: impl Iterator<Item = DVec3>, frame: &Frame) -> [Vec<u8>; 4] {
-        let positions: Vec<DVec3> = positions.collect();
+    fn lists(&mut self, Moment { frame, .. }: &Moment<'_>, positions: Vec<DVec3>) -> Lists {
         if positions != self.positions {
             self.positions = positions;
             self.lights.clear();
@@ -72,7 +79,7 @@ impl Shadows {
             let light = self.append(index, eye, &edges_at_eye, share, &mut lists);
             lists.lights.push(light);
         }
-        lists.encode()
+        lists
     }
 
     /// A light, whose edges, slices and crossings, about so many at most, the lists grow by.
@@ -103,7 +110,17 @@ impl Shadows {
     }
 }
 
-/// What becomes [`SHADOW_DATA`].
+impl Encoder for Shadows {
+    fn encode(&mut self, moment: &Moment<'_>, data: &mut Buffers<'_>) {
+        let lists = self.lists(moment, moment.positions().collect());
+        data.set_list("shadow_lights", lists.lights);
+        data.set_list("shadow_slices", lists.starts);
+        data.set_list("shadow_crossings", lists.crossings);
+        data.set_list("shadow_edges", lists.edges);
+    }
+}
+
+/// What becomes the scene data.
 #[derive(Default)]
 struct Lists {
     lights: Vec<ShadowLight>,
@@ -111,17 +128,6 @@ struct Lists {
     starts: Vec<u32>,
     crossings: Vec<ShadowCrossing>,
     edges: Vec<ShadowEdge>,
-}
-
-impl Lists {
-    fn encode(self) -> [Vec<u8>; 4] {
-        [
-            list(self.lights.into_iter()),
-            list(self.starts.into_iter()),
-            list(self.crossings.into_iter()),
-            list(self.edges.into_iter()),
-        ]
-    }
 }
 
 /// As single precision has it, so that passes and this module speak of the same light.

@@ -13,11 +13,12 @@
 use std::ops::Range;
 
 use glam::{DMat3, DVec3};
+use tyndall_plugin::scene::layout::floats;
 use tyndall_shaders::shadows::Source;
 
+use super::layout::{ShadowCrossing, ShadowEdge, ShadowLight};
 use super::silhouette::SilhouetteEdge;
 use super::spans::{Borders, Span, angles};
-use crate::layout::{ShadowCrossing, ShadowEdge, ShadowLight};
 
 /// Where light and eye stand to each other.
 pub(crate) struct LightFrame {
@@ -60,7 +61,6 @@ impl LightFrame {
 
     /// The light's part of the encoded lists, but for where the rest stands in them.
     pub(crate) fn encode(&self, depth_at_eye: i32) -> ShadowLight {
-        let floats = crate::encode::floats;
         ShadowLight {
             across: floats(self.world_from_light.x_axis),
             nearness: self.nearness as f32,
@@ -130,7 +130,6 @@ impl PlacedEdge {
     }
 
     pub(crate) fn encode(&self) -> ShadowEdge {
-        let floats = crate::encode::floats;
         ShadowEdge { a: floats(self.a), step: self.step, b: floats(self.b), away: self.away.unwrap_or(0.0) }
     }
 }

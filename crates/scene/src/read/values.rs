@@ -4,15 +4,15 @@ use glam::DVec3;
 use tyndall_document::{Decoder, Diagnostic, Node, OUT_OF_RANGE, Value};
 use tyndall_shaders::phase::Interval;
 
-use crate::animate::{Animated, least_length};
+use crate::animate::{Animated, Blend, least_length};
 use crate::codes::{CONSTANT_ONLY, EMPTY_KEYS, UNSORTED_KEYS, ZERO_DIRECTION};
 
 /// A way between two directions that comes this near to 0, relative to their length, passes through it.
 const NO_LENGTH: f64 = 1e-9;
 
 /// Which numbers are allowed.
-#[derive(Clone, Copy)]
-pub(super) enum Range {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Range {
     /// All that fit single precision.
     Any,
     /// 0 or more.
@@ -71,7 +71,7 @@ impl Range {
 }
 
 /// A number of a range; `name` is the field's name for messages.
-pub(super) fn number(decoder: &mut Decoder, node: &Node, name: &str, range: Range) -> Option<f64> {
+pub fn number(decoder: &mut Decoder, node: &Node, name: &str, range: Range) -> Option<f64> {
     let value = decoder.float(node)?;
     let fits = (value as f32).is_finite();
     if fits && range.holds(value) {
@@ -87,12 +87,7 @@ pub(super) fn number(decoder: &mut Decoder, node: &Node, name: &str, range: Rang
 }
 
 /// Numbers of a range in a tuple; each mistake is reported at its number.
-pub(super) fn numbers<const N: usize>(
-    decoder: &mut Decoder,
-    node: &Node,
-    name: &str,
-    range: Range,
-) -> Option<[f64; N]> {
+pub fn numbers<const N: usize>(decoder: &mut Decoder, node: &Node, name: &str, range: Range) -> Option<[f64; N]> {
     if let Value::Variant { name: variant, .. } = &node.value
         && variant == "Keys"
     {
@@ -108,12 +103,12 @@ pub(super) fn numbers<const N: usize>(
 }
 
 /// Three numbers of a range.
-pub(super) fn vector(decoder: &mut Decoder, node: &Node, name: &str, range: Range) -> Option<DVec3> {
+pub fn vector(decoder: &mut Decoder, node: &Node, name: &str, range: Range) -> Option<DVec3> {
     numbers::<3>(decoder, node, name, range).map(DVec3::from_array)
 }
 
 /// Three numbers that are not all 0.
-pub(super) fn direction(decoder: &mut Decoder, node: &Node, name: &str) -> Option<DVec3> {
+pub fn direction(decoder: &mut Decoder, node: &Node, name: &str) -> Option<DVec3> {
     let value = vector(decoder, node, name, Range::Any)?;
     // Single precision: a direction that becomes 0 there has no length for a shader, but is normalised before.
     if value.length() > 0.0 && value.length().is_finite() {
@@ -124,20 +119,18 @@ pub(super) fn direction(decoder: &mut Decoder, node: &Node, name: &str) -> Optio
     None
 }
 
-type Read = fn(&mut Decoder, &Node, &str) -> Option<DVec3>;
-
 /// Any vector, or keys of such.
-pub(super) fn animated(decoder: &mut Decoder, node: &Node, name: &str) -> Option<Animated> {
+pub fn animated(decoder: &mut Decoder, node: &Node, name: &str) -> Option<Animated> {
     keys(decoder, node, name, |d, n, name| vector(d, n, name, Range::Any))
 }
 
 /// A vector without negative components, or keys of such.
-pub(super) fn animated_power(decoder: &mut Decoder, node: &Node, name: &str) -> Option<Animated> {
+pub fn animated_power(decoder: &mut Decoder, node: &Node, name: &str) -> Option<Animated> {
     keys(decoder, node, name, |d, n, name| vector(d, n, name, Range::NotNegative))
 }
 
 /// A vector that has a length at all times, or keys of such.
-pub(super) fn animated_direction(decoder: &mut Decoder, node: &Node, name: &str) -> Option<Animated> {
+pub fn animated_direction(decoder: &mut Decoder, node: &Node, name: &str) -> Option<Animated> {
     let animated = keys(decoder, node, name, direction)?;
     if let Animated::Keys(keys) = &animated
         && let Some(pair) = keys.windows(2).find(|k| least_length(k[0].1, k[1].1) < NO_LENGTH)
@@ -150,8 +143,18 @@ pub(super) fn animated_direction(decoder: &mut Decoder, node: &Node, name: &str)
     Some(animated)
 }
 
+/// A number of a range, or keys of such.
+pub fn animated_number(decoder: &mut Decoder, node: &Node, name: &str, range: Range) -> Option<Animated<f64>> {
+    keys(decoder, node, name, |d, n, name| number(d, n, name, range))
+}
+
 /// A value, or `Keys([(seconds, value), …])`.
-fn keys(decoder: &mut Decoder, node: &Node, name: &str, read: Read) -> Option<Animated> {
+pub fn keys<T: Blend>(
+    decoder: &mut Decoder,
+    node: &Node,
+    name: &str,
+    read: impl Fn(&mut Decoder, &Node, &str) -> Option<T>,
+) -> Option<Animated<T>> {
     let content = match &node.value {
         Value::Variant { name: variant, content, .. } if variant == "Keys" => content.as_deref(),
         _ => return read(decoder, node, name).map(Animated::Constant),
@@ -169,8 +172,8 @@ fn keys(decoder: &mut Decoder, node: &Node, name: &str, read: Read) -> Option<An
         decoder.report(Diagnostic::error(EMPTY_KEYS, decoder.place(list.span), message));
         return None;
     }
-    let keys: Vec<Option<(f64, DVec3)>> = items.iter().map(|item| key(decoder, item, name, read)).collect();
-    let keys: Vec<(f64, DVec3)> = keys.into_iter().collect::<Option<_>>()?;
+    let keys: Vec<Option<(f64, T)>> = items.iter().map(|item| key(decoder, item, name, &read)).collect();
+    let keys: Vec<(f64, T)> = keys.into_iter().collect::<Option<_>>()?;
     if let Some(at) = keys.windows(2).position(|pair| pair[1].0 <= pair[0].0) {
         let message = format!("the key at {} s follows the key at {} s; times must ascend", keys[at + 1].0, keys[at].0);
         decoder.report(Diagnostic::error(UNSORTED_KEYS, decoder.place(items[at + 1].span), message));
@@ -179,7 +182,12 @@ fn keys(decoder: &mut Decoder, node: &Node, name: &str, read: Read) -> Option<An
     Some(Animated::Keys(keys))
 }
 
-fn key(decoder: &mut Decoder, node: &Node, name: &str, read: Read) -> Option<(f64, DVec3)> {
+fn key<T>(
+    decoder: &mut Decoder,
+    node: &Node,
+    name: &str,
+    read: &impl Fn(&mut Decoder, &Node, &str) -> Option<T>,
+) -> Option<(f64, T)> {
     match &node.value {
         Value::Tuple(pair) if pair.len() == 2 => {
             let time = decoder.float(&pair[0]);

@@ -1,10 +1,9 @@
 //! Edges at which a shadow begins or ends, as a light sees them.
 
 use glam::DVec3;
+use tyndall_plugin::scene::Scene;
+use tyndall_plugin::scene::adjacency::Adjacency;
 use tyndall_shaders::shadows::{Source, facing};
-
-use crate::adjacency::Adjacency;
-use crate::scene::Scene;
 
 /// An edge of the casters at which the number of triangles between the light and what is behind changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +40,7 @@ struct Side {
 impl Casters {
     /// Of a scene's objects that cast shadows. Triangles with two corners at one position are left out.
     pub(crate) fn of(scene: &Scene) -> Casters {
-        let triangles: Vec<[u32; 4]> = crate::encode::world_triangles(scene, &scene.at(0.0)).collect();
+        let triangles: Vec<[u32; 4]> = scene.moment(0.0, 1.0).triangles().collect();
         let casts = |triangle: u32| scene.instances[triangles[triangle as usize][3] as usize].casts_shadow;
         let corners = |triangle: u32| triangles[triangle as usize].first_chunk().copied().unwrap_or_default();
         let mut casters = Casters::default();

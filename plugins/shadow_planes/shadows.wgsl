@@ -1,5 +1,5 @@
-// The parts of a view ray that a light reaches, exact whatever casts shadows: see ShadowLight in scene.wgsl, and
-// crates/scene/src/shadows, which sorts the silhouettes.
+// The parts of a view ray that a light reaches, exact whatever casts shadows: see ShadowLight in
+// shadow_data.wgsl, and src/shadows, which sorts the silhouettes.
 //
 // The half-plane of ray and light begins at the axis through light and eye, the z axis of the light's frame. In it
 //
@@ -23,11 +23,7 @@
 
 #import scene
 #import ray
-
-var<storage, read> shadow_lights: ShadowLights;
-var<storage, read> shadow_slices: ShadowSlices;
-var<storage, read> shadow_crossings: ShadowCrossings;
-var<storage, read> shadow_edges: ShadowEdges;
+#import "shadow_data.wgsl"
 
 // More than any distance, m, whose products stay finite.
 const BEYOND: f32 = 1e18;
