@@ -178,9 +178,12 @@ fn culled_rightly(plan: &Plan, graph: &Graph, roots: &[PortRef]) {
     assert_eq!(runs, plan.passes.iter().map(|planned| planned.pass).collect());
 }
 
+/// The pass that writes a port, and how long the port lives.
+type Interval = (Handle<PlannedPass>, Until);
+
 /// By resource, the most that are alive at one time: versions in place are one, and no plan can do with fewer slots.
 fn most_alive(plan: &Plan) -> BTreeMap<String, (u32, Resource)> {
-    let mut intervals: BTreeMap<String, (Resource, Vec<(Handle<PlannedPass>, Until)>)> = BTreeMap::new();
+    let mut intervals: BTreeMap<String, (Resource, Vec<Interval>)> = BTreeMap::new();
     for (slot, of_slot) in plan.slots.entries().filter(|(_, slot)| slot.kind == SlotKind::Transient) {
         let entry = intervals.entry(of_slot.resource.to_string()).or_insert((of_slot.resource, Vec::new()));
         for port in plan.ports_in(slot) {
@@ -191,7 +194,7 @@ fn most_alive(plan: &Plan) -> BTreeMap<String, (u32, Resource)> {
             }
         }
     }
-    let most = |intervals: &[(Handle<PlannedPass>, Until)]| {
+    let most = |intervals: &[Interval]| {
         let is_alive = |first, until, at| first <= at && Until::Pass(at) <= until;
         let alive = |at| intervals.iter().filter(|(first, until)| is_alive(*first, *until, at)).count() as u32;
         intervals.iter().map(|(first, _)| alive(*first)).max().unwrap_or(0)
