@@ -17,8 +17,11 @@ pub struct PhaseFunction {
     /// Its parameters, in the order in which they may be given without their names.
     pub parameters: &'static [Parameter],
     /// Makes it, of a value for each of its parameters; every one is asked for, also behind one that has none.
-    pub make: fn(&mut dyn FnMut(&Parameter) -> Option<f64>) -> Option<Phase>,
+    pub make: fn(&mut ValueOf<'_>) -> Option<Phase>,
 }
+
+/// Gives a parameter its value, if it has one.
+pub type ValueOf<'a> = dyn FnMut(&Parameter) -> Option<f64> + 'a;
 
 /// A number that belongs to a phase function.
 #[derive(Debug)]
