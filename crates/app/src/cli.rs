@@ -246,7 +246,7 @@ pub(crate) struct Test {
     /// Only frame N, of tests that look at several
     #[arg(long, value_name = "N")]
     pub frame: Option<u32>,
-    /// Replace goldens that are missing, different or stale by what is rendered
+    /// Replace goldens that are missing or different by what is rendered; of stale ones that are still right, renew the record
     #[arg(long, conflicts_with_all = ["isolate", "size", "at_most", "no_goldens", "no_references"])]
     pub bless: bool,
     /// Also bless goldens that were made on another class of adapters

@@ -214,6 +214,11 @@ impl Executor {
         read(&self.gpu, &name, (resource, scalar), &self.slots[slot])
     }
 
+    /// What the texture of a port allows: to be read and copied, and what passes do with it. `None` of a buffer.
+    pub fn texture_usages(&self, port: Handle<PlannedPort>) -> Option<wgpu::TextureUsages> {
+        self.slots[self.plan.ports[port].slot].texture().map(wgpu::Texture::usage)
+    }
+
     /// Passes some of whose threads did not get to the end of their loops, because the driver ended them, and how many
     /// threads that were in all frames so far. Waits for the GPU.
     ///

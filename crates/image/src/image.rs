@@ -157,11 +157,12 @@ impl<T: Copy> Image<T> {
     }
 
     /// With every number exactly as it is.
-    pub fn exact(&self) -> Image<f64>
+    pub fn exact(self) -> Image<f64>
     where
         T: Into<f64>,
     {
-        self.map(Into::into)
+        let Self { width, height, layers, channels, data } = self;
+        Image { width, height, layers, channels, data: data.into_iter().map(Into::into).collect() }
     }
 
     /// In single precision, as metrics of the eye and formats for it want it: whole numbers beyond 2^24 are rounded.
@@ -206,7 +207,7 @@ mod tests {
     fn both_kinds_of_numbers_are_held_exactly() {
         let (float, whole) =
             (Image::filled(1, 1, &[f32::MIN_POSITIVE, f32::MAX]), Image::filled(1, 1, &[(1 << 24) + 1, u32::MAX]));
-        assert_eq!(float.exact().floats(), float);
+        assert_eq!(float.clone().exact().floats(), float);
         assert_eq!(whole.exact().data, [16_777_217.0, 4_294_967_295.0]);
     }
 

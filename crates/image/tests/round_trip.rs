@@ -63,7 +63,7 @@ fn whole_numbers_survive_and_files_say_what_they_are() {
     for name in ["a.exr", "a.npy"] {
         let path = folder.path().join(name);
         write(&path, &image, Meaning::Data).unwrap();
-        assert_eq!(read_exact(&path).unwrap(), image.exact(), "{name}");
+        assert_eq!(read_exact(&path).unwrap(), image.clone().exact(), "{name}");
         assert_eq!(read(&path).unwrap(), image.floats(), "{name}");
     }
     let meta = exr::meta::MetaData::read_from_file(folder.path().join("a.exr"), true).unwrap();

@@ -3,7 +3,7 @@
 mod support;
 
 use support::{content, executor, gpu, planned, registry, run_all, with_plugin};
-use tyndall_gpu::{FrameOptions, Numbers};
+use tyndall_gpu::{FrameOptions, Numbers, wgpu};
 use tyndall_graph::Roots;
 use tyndall_plugin::Registry;
 
@@ -295,6 +295,21 @@ fn a_depth_buffer_reads_back() {
     assert!((raster[middle] / expected - 1.0).abs() < 1e-3, "{} {expected}", raster[middle]);
     assert_eq!(raster.len(), 81);
     assert!(depth.iter().zip(&raster).all(|(depth, raster)| depth.is_finite() == (*raster > 0.0)));
+}
+
+/// What costs something on some devices is asked for where a pass does it, and nowhere else.
+#[test]
+fn textures_allow_what_passes_do_with_them() {
+    let registry = registry(&[]);
+    let plan = planned(&registry, support::FOG, |_, options| options.share = false);
+    let executor = executor(&gpu(), &registry, plan);
+    let (stored, drawn) = (wgpu::TextureUsages::STORAGE_BINDING, wgpu::TextureUsages::RENDER_ATTACHMENT);
+    let usages = |name: &str| executor.texture_usages(executor.plan().find(name).unwrap()).unwrap() & (stored | drawn);
+    assert_eq!(usages("surfaces.triangle"), drawn);
+    assert_eq!(usages("surfaces.raster_depth"), drawn);
+    for name in ["surfaces.depth", "surfaces.normal", "surfaces.material", "airlight", "radiance", "image"] {
+        assert_eq!(usages(name), stored, "{name}");
+    }
 }
 
 /// A thread writes a row of its own, as many as the manifest says.

@@ -1,5 +1,7 @@
 //! What results are made from: what shaders do and scene data hold, and no more than that.
 
+#![allow(clippy::unwrap_used, reason = "a test")]
+
 mod support;
 
 use support::{planned, scene_of, with_plugin};

@@ -7,7 +7,7 @@ use crate::session::Variation;
 /// How tests are run.
 #[derive(Debug, Clone, Default)]
 pub struct Options {
-    /// Write goldens that are missing, different or stale.
+    /// Write goldens that are missing or different, and record anew what stale ones were made from.
     pub bless: bool,
     /// Also where the golden was made on another class of adapters.
     pub bless_any_adapter: bool,
