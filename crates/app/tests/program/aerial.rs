@@ -330,7 +330,7 @@ fn what_air_cannot_be_is_refused() {
         ("atmosphere.preset=\"cler\"", "did you mean `clear`?"),
         ("sky=\"dom\"", "did you mean `dome`?"),
         ("atmosphere.sunlight=\"spice\"", "did you mean `space`?"),
-        ("atmosphere.beta=1", "no parameter named `beta`"),
+        ("atmosphere.beta=1", "no parameter `beta`"),
     ] {
         let ended = render(&desk, "wall.scene.ron", "12x8", &[set]);
         assert!(ended.code == 2 && ended.err.contains(hint), "{set}: {}\n{}", ended.code, ended.err);
