@@ -1,6 +1,6 @@
 // Between linear light and sRGB, the exact transfer function of IEC 61966-2-1 (two pieces, not a power of 2.2).
 
-// sRGB, 0..1, of linear light; what is outside 0..1 is clamped first, and what is no number becomes 0.
+// sRGB, 0..1, of linear light; values outside 0..1 are clamped first, and NaN becomes 0.
 fn srgb_from_linear(linear: vec3<f32>) -> vec3<f32> {
     let value = saturate(linear);
     let curve = 1.055 * pow(value, vec3<f32>(1.0 / 2.4)) - 0.055;

@@ -21,7 +21,7 @@ impl std::fmt::Debug for PhaseTable {
     }
 }
 
-/// Why rows are no phase function; `row` counts from 0.
+/// Why rows are not a phase function; `row` counts from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TableFault {
     /// Fewer than two rows.
@@ -45,7 +45,7 @@ pub enum TableFault {
     Start,
     /// The last angle is not 180°.
     End,
-    /// Zero everywhere, or so narrow or large that its integral is no number.
+    /// Zero everywhere, or so narrow or large that its integral is not finite.
     Integral,
 }
 
@@ -258,7 +258,7 @@ mod tests {
 
     #[test]
     fn what_is_no_phase_function_is_refused() {
-        let fault = |rows: &[(f64, f64)]| PhaseTable::new(rows).expect_err("it is none");
+        let fault = |rows: &[(f64, f64)]| PhaseTable::new(rows).expect_err("it is not a phase function");
         assert_eq!(fault(&[]), TableFault::TooFew);
         assert_eq!(fault(&[(0.0, 1.0)]), TableFault::TooFew);
         assert_eq!(fault(&[(0.0, 1.0), (20.0, f64::NAN), (180.0, 1.0)]), TableFault::NotFinite { row: 1 });

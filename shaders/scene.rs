@@ -12,7 +12,7 @@ pub type Caster = [DVec3; 3];
 pub struct Scene {
     /// Where the picture is taken from.
     pub camera: Camera,
-    /// What fills space; extinction 0 is none.
+    /// What fills space; none if extinction is 0.
     pub medium: Medium,
     /// How its density falls with the height.
     pub height_fog: HeightFog,

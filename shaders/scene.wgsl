@@ -28,7 +28,7 @@ struct Camera {
     pad2: f32,
 }
 
-// A medium that fills space; extinction 0 is none. It is homogeneous unless HeightFog says otherwise: a pass that reads the
+// A medium that fills space; none if extinction is 0. It is homogeneous unless HeightFog says otherwise: a pass that reads the
 // medium and not that is refused a scene with height fog. How it scatters is Phase, scene data of its own: a table over
 // directions and optical depths reads that alone, and is kept while the density changes.
 struct Medium {

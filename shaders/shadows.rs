@@ -32,7 +32,7 @@ impl Source {
 const ROUNDED: f64 = 8.0 / (1 << 24) as f64;
 
 /// Which way a triangle faces: 1 where its corners run counter-clockwise as the light sees them, -1 clockwise, and 0 where
-/// the light sees it edge on, where it has no area, or where a corner is no number.
+/// the light sees it edge on, where it has no area, or where a corner is not finite.
 ///
 /// A lamp on a surface is in the plane of its triangles but for the rounding of coordinates, which must not decide whether
 /// it lights a room: as near as that is edge on. A lamp that is farther from the plane than its coordinates and the

@@ -114,14 +114,14 @@ impl Bindings {
                 Feed::Params => match &self.params {
                     Some(block) => block.buffer.as_entire_binding(),
                     None => {
-                        let reason = "its `params` is no uniform".to_owned();
+                        let reason = "its `params` is not a uniform".to_owned();
                         return Err(GpuError::Pass { pass: self.label.clone(), reason });
                     }
                 },
                 Feed::Unfinished => match &self.unfinished {
                     Some(buffer) => buffer.as_entire_binding(),
                     None => {
-                        let reason = format!("its `{UNFINISHED}` is no count");
+                        let reason = format!("its `{UNFINISHED}` is not a count");
                         return Err(GpuError::Pass { pass: self.label.clone(), reason });
                     }
                 },
@@ -247,7 +247,7 @@ impl ParamBlock {
             let ParamSource::Uniform { offset } = param.source else { continue };
             let index = pass.param(&param.name);
             let index =
-                index.ok_or_else(|| pass.refuse(format!("`Params.{}` is no declared parameter", param.name)))?;
+                index.ok_or_else(|| pass.refuse(format!("`Params.{}` is not a declared parameter", param.name)))?;
             fields.push((offset as usize, index, param.kind));
         }
         let buffer = gpu.create(label, 1, |device| {

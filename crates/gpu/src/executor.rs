@@ -200,7 +200,7 @@ impl Executor {
     /// The content of a port after the last frame. Waits for the GPU.
     ///
     /// # Errors
-    /// [`GpuError::Pass`] where other ports have used the port's memory since (it was no root of the plan); a lost
+    /// [`GpuError::Pass`] if other ports have used the port's memory since (it was not a root of the plan); a lost
     /// device.
     pub fn read(&self, port: Handle<PlannedPort>) -> Result<PortData, GpuError> {
         let name = self.plan.port_name(port);

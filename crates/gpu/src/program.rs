@@ -63,7 +63,7 @@ impl Setup<'_> {
                 self.usages[slot] |= wgpu::TextureUsages::RENDER_ATTACHMENT;
                 Ok((slot, *format))
             }
-            _ => Err(self.pass.refuse(format!("it draws into `{port}`, which is no texture of it"))),
+            _ => Err(self.pass.refuse(format!("it draws into `{port}`, which is not one of its textures"))),
         }
     }
 }

@@ -114,13 +114,13 @@ impl Recorder<'_> {
     /// Writes texels into a texture port: `data` in its own format, rows from the top, without padding.
     ///
     /// # Errors
-    /// [`GpuError::Pass`] where the port is no texture or the data are of another size.
+    /// [`GpuError::Pass`] if the port is not a texture, or the data have another size.
     pub fn write_texture(&mut self, port: Handle<PortDescriptor>, data: &[u8]) -> Result<(), GpuError> {
         let texture = self.pass.slot(port).and_then(|slot| self.bound.slots[slot].texture());
         let (Some(texture), Some(resource @ Resource::Texture { format, width, height, .. })) =
             (texture, self.pass.resource(port))
         else {
-            return Err(self.pass.refuse("it writes texels into a port that is no texture"));
+            return Err(self.pass.refuse("it writes texels into a port that is not a texture"));
         };
         if data.len() as u64 != resource.bytes() {
             return Err(self.pass.refuse("it writes texels of another size than its port"));

@@ -12,6 +12,7 @@ pub mod codes;
 mod dispatch;
 mod folder;
 mod found;
+pub mod keys;
 mod layout;
 mod limits;
 mod linker;

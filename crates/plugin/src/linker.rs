@@ -110,7 +110,7 @@ impl Linker {
         }
         let over = match &pass.over {
             Some((Over::Port(port), span)) if descriptor.port(port).is_none() => {
-                let message = format!("`dispatch` names `{port}`, which is no port of this pass");
+                let message = format!("unknown port `{port}` in `dispatch`");
                 out.push(Diagnostic::error(BAD_PORT, source.place(*span), message));
                 return None;
             }

@@ -8,6 +8,7 @@ use tyndall_scene::{Extensions, Feature};
 
 use crate::codes::BAD_PLUGIN_NAME;
 use crate::dispatch::Over;
+use crate::keys;
 use crate::limits::{self, Limit};
 use crate::ports::arguments;
 
@@ -76,8 +77,7 @@ pub(crate) fn read(
 ) -> (Option<String>, Option<Manifest>) {
     let root = parse(source, out);
     let mut decoder = Decoder::new(source, out);
-    let fields =
-        root.as_ref().and_then(|root| decoder.fields(root, "a plugin", &["name", "version", "about", "passes"]));
+    let fields = root.as_ref().and_then(|root| decoder.fields(root, "a plugin", keys::PLUGIN));
     let Some(fields) = fields else { return (None, None) };
     let name = fields.required(&mut decoder, "name").and_then(|node| name(&mut decoder, node));
     let features = extensions.features(name.as_deref().unwrap_or_default());
@@ -107,15 +107,14 @@ fn version(decoder: &mut Decoder<'_>, node: &Node) -> Option<Version> {
     let version = Version::parse(text);
     if version.is_none() {
         let place = decoder.place(node.span);
-        let problem = Diagnostic::error(BAD_VERSION, place, format!("{text:?} is no version"));
+        let problem = Diagnostic::error(BAD_VERSION, place, format!("{text:?} is not a version"));
         decoder.report(problem.suggest("write MAJOR.MINOR.PATCH: \"0.1.0\""));
     }
     version
 }
 
 fn pass(decoder: &mut Decoder<'_>, entry: Entry, features: &[Feature]) -> Option<ManifestPass> {
-    let known = ["about", "source", "shader", "dispatch", "limits", "refuses", "ports", "params", "presets"];
-    let fields = decoder.fields(&entry.value, "a pass", &known)?;
+    let fields = decoder.fields(&entry.value, "a pass", keys::PASS)?;
     let text = |decoder: &mut Decoder<'_>, name: &str| {
         fields.get(name).and_then(|node| decoder.text(node)).unwrap_or_default().to_owned()
     };

@@ -10,6 +10,7 @@ use tyndall_graph::descriptor::{
 use tyndall_shader::{Linked, ParamKind, ReflectedPort, ResourceKind, SampleClass, derive_port};
 
 use crate::codes::{BAD_PARAM, BAD_PORT};
+use crate::keys;
 use crate::manifest::{Entry, ManifestPass};
 use crate::presets::{preset_param, presets};
 
@@ -54,8 +55,7 @@ pub(crate) fn descriptor(
 }
 
 fn port(decoder: &mut Decoder<'_>, entry: &Entry, linked: &Linked) -> Option<PortDescriptor> {
-    let known = ["about", "unit", "class", "size", "optional", "history", "disabled", "unordered"];
-    let fields = decoder.fields(&entry.value, "a port", &known)?;
+    let fields = decoder.fields(&entry.value, "a port", keys::PORT)?;
     let Some(resource) = linked.resource(&entry.name) else {
         let names = linked.resources.iter().map(|resource| resource.name.as_str());
         let message = format!("the shader has no variable `{}` for this port", entry.name);
@@ -120,8 +120,7 @@ fn store_as(kind: &mut PortKind, stored: Format) {
 }
 
 fn class(decoder: &mut Decoder<'_>, node: &Node) -> Option<Class> {
-    let known = ["Color", "Scalar", "Vector", "Display", "Data", "RasterDepth", "Any"];
-    let (name, _) = decoder.variant(node, "what a texture's channels mean", &known)?;
+    let (name, _) = decoder.variant(node, "a class of textures", keys::CLASS)?;
     Some(match name {
         "Color" => Class::Color,
         "Scalar" => Class::Scalar,
@@ -134,7 +133,7 @@ fn class(decoder: &mut Decoder<'_>, node: &Node) -> Option<Class> {
 }
 
 fn disabled(decoder: &mut Decoder<'_>, node: &Node) -> Option<Disabled> {
-    let (name, content) = decoder.variant(node, "what flows where the pass is off", &["Input", "Constant"])?;
+    let (name, content) = decoder.variant(node, "a value of `disabled`", keys::DISABLED)?;
     match (name, content.map(arguments).as_deref()) {
         ("Input", Some([port])) => decoder.text(port).map(|port| Disabled::Input(port.to_owned())),
         ("Constant", Some([_, _, _, _])) => content.and_then(|value| decoder.floats4(value)).map(Disabled::Constant),
@@ -146,8 +145,7 @@ fn disabled(decoder: &mut Decoder<'_>, node: &Node) -> Option<Disabled> {
 }
 
 fn size(decoder: &mut Decoder<'_>, node: &Node) -> Option<SizeRule> {
-    let known = ["Same", "Scaled", "Frame", "Fixed", "Params", "FramePixels"];
-    let (name, content) = decoder.variant(node, "a size", &known)?;
+    let (name, content) = decoder.variant(node, "a size", keys::SIZE)?;
     let content = content.map(arguments).unwrap_or_default();
     let rule = match (name, content.as_slice()) {
         ("Same", [port]) => Some(SizeRule::same(decoder.text(port)?)),
@@ -173,7 +171,7 @@ fn size(decoder: &mut Decoder<'_>, node: &Node) -> Option<SizeRule> {
     };
     if rule.is_none() {
         let place = decoder.place(node.span);
-        let problem = Diagnostic::error(BAD_SIZE, place, format!("`{name}` is not given what it needs to be a size"));
+        let problem = Diagnostic::error(BAD_SIZE, place, format!("wrong arguments of the size `{name}`"));
         decoder.report(problem.suggest(
             "sizes are Same(\"port\"), Scaled(\"port\", factor), Frame(factor), Fixed(w, h, d), \
              Params(\"width\", \"height\"), FramePixels(factor)",
@@ -204,8 +202,7 @@ pub(crate) fn arguments(content: &Node) -> Vec<&Node> {
 }
 
 fn param(decoder: &mut Decoder<'_>, entry: &Entry, linked: &Linked) -> Option<ParamDescriptor> {
-    let fields =
-        decoder.fields(&entry.value, "a parameter", &["about", "unit", "default", "range", "choices", "needs"])?;
+    let fields = decoder.fields(&entry.value, "a parameter", keys::PARAM)?;
     let reflected = linked.param(&entry.name);
     if let Some(node) = fields.get("needs") {
         needed_port(decoder, node, linked);

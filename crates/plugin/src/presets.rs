@@ -11,6 +11,7 @@ use tyndall_document::{Decoder, Diagnostic, Span};
 use tyndall_graph::descriptor::{PRESET, ParamDescriptor, ParamType, ParamValue, Preset};
 
 use crate::codes::BAD_PARAM;
+use crate::keys;
 use crate::manifest::Entry;
 
 /// The presets of a pass with these parameters.
@@ -19,7 +20,7 @@ pub(crate) fn presets(decoder: &mut Decoder<'_>, entries: &[Entry], params: &[Pa
 }
 
 fn preset(decoder: &mut Decoder<'_>, entry: &Entry, params: &[ParamDescriptor]) -> Option<Preset> {
-    let fields = decoder.fields(&entry.value, "a preset", &["about", "values"])?;
+    let fields = decoder.fields(&entry.value, "a preset", keys::PRESET)?;
     let about = fields.required(decoder, "about").and_then(|node| decoder.text(node)).unwrap_or_default().to_owned();
     let given = fields.get("values").and_then(|node| decoder.map(node)).unwrap_or_default();
     let mut values = Vec::new();
@@ -33,7 +34,7 @@ fn preset(decoder: &mut Decoder<'_>, entry: &Entry, params: &[ParamDescriptor]) 
 }
 
 fn unknown(decoder: &mut Decoder<'_>, name: &str, span: Span, params: &[ParamDescriptor]) {
-    let message = format!("the pass has no parameter `{name}` that a preset could give");
+    let message = format!("the preset sets `{name}`, which is not a parameter of the pass");
     let problem = Diagnostic::error(BAD_PARAM, decoder.place(span), message);
     decoder.report(problem.suggest_near(name, params.iter().map(|param| param.name.as_str())));
 }

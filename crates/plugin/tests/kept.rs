@@ -256,7 +256,7 @@ fn random_graph(random: &mut Random, passes: usize) -> (String, Vec<(String, &'s
     (text, params)
 }
 
-/// A value for a parameter of [`random_graph`]; a few only, so that some changes are none.
+/// A value for a parameter of [`random_graph`]; there are few, so that some changes change nothing.
 fn random_value(random: &mut Random, param: &str) -> ParamValue {
     let number = random.below(5) as f64 / 4.0 - 0.5;
     match param {

@@ -19,7 +19,7 @@ codes! {
     EMPTY_KEYS = "empty-keys";
     /// Keys whose times do not ascend.
     UNSORTED_KEYS = "unsorted-keys";
-    /// `Keys` where the contract has none.
+    /// `Keys` for a value that cannot have keys.
     CONSTANT_ONLY = "constant-only";
     /// A `--set scene.…` path into something that has no such part.
     UNKNOWN_PATH = "unknown-path";
@@ -55,7 +55,7 @@ codes! {
     GLTF_NOT_FINITE = "gltf-not-finite";
     /// glTF: a node with two parents, or a cycle.
     GLTF_HIERARCHY = "gltf-hierarchy";
-    /// glTF: a node transform that is none.
+    /// glTF: an invalid node transform.
     GLTF_TRANSFORM = "gltf-transform";
     /// glTF: a picture that cannot be decoded.
     GLTF_IMAGE = "gltf-image";
@@ -67,11 +67,11 @@ codes! {
     GLTF_MATERIAL = "gltf-material";
     /// glTF: a material that is black because it is wholly metallic (a warning).
     GLTF_METAL = "gltf-metal";
-    /// glTF: a light that is none.
+    /// glTF: an invalid light.
     GLTF_LIGHT = "gltf-light";
-    /// glTF: a camera that is none.
+    /// glTF: an invalid camera.
     GLTF_CAMERA = "gltf-camera";
-    /// glTF: an animation that is none.
+    /// glTF: an invalid animation.
     GLTF_ANIMATION = "gltf-animation";
     /// glTF: something that has no part in our pictures (a warning).
     GLTF_IGNORED = "gltf-ignored";

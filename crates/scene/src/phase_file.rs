@@ -62,7 +62,7 @@ fn words(content: &str, start: u32) -> Vec<Span> {
 
 fn row(source: &Arc<Source>, words: &[Span], numbers: &[Option<f64>]) -> Result<Row, Mistake> {
     if let Some(at) = numbers.iter().position(Option::is_none) {
-        let message = format!("`{}` is no number", source.slice(words[at]));
+        let message = format!("`{}` is not a number", source.slice(words[at]));
         return Err(mistake(source, words[at], message));
     }
     match (numbers, words) {
@@ -87,7 +87,7 @@ fn told(source: &Arc<Source>, rows: &[Row], fault: TableFault) -> Mistake {
         TableFault::NotFinite { row } => {
             let column = usize::from(rows[row].numbers.0.is_finite());
             let (span, text) = of(row, column);
-            (span, format!("`{text}` is no finite number"))
+            (span, format!("`{text}` is not a finite number"))
         }
         TableFault::Negative { row } => {
             let (span, text) = of(row, 1);

@@ -51,7 +51,7 @@ fn flight_helmet(folder: &Path) {
     assert_eq!((scene.materials.len(), scene.textures.len(), scene.instances.len()), (6, 5, 6));
     assert!(scene.materials.iter().all(|m| m.texture.is_some()));
     assert!(scene.textures.iter().all(|t| (t.width, t.height) == (512, 512)));
-    // All channels of all textures, linear: leather and wood are no metal, so the helmet is not black.
+    // All channels of all textures, linear: leather and wood are not metal, so the helmet is not black.
     let sum: u64 = scene.textures.iter().flat_map(|t| &t.texels).map(|t| u64::from(t & 0xff)).sum();
     let mean = sum as f64 / (5.0 * 512.0 * 512.0);
     assert!(mean > 20.0 && mean < 200.0, "mean red {mean}");

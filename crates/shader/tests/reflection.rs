@@ -49,7 +49,7 @@ fn what_is_not_used_is_not_bound() {
          @compute @workgroup_size(4, 2) fn main() { textureStore(b, vec2(0), textureLoad(a, vec2(0), 0)); }",
     );
     assert_eq!(names(&linked), [("a", 0), ("b", 1)]);
-    assert!(linked.params.is_empty(), "overrides of a module that are not used are no parameters");
+    assert!(linked.params.is_empty(), "unused overrides of a module are not parameters");
     assert_eq!(linked.unused.iter().map(|unused| unused.name.as_str()).collect::<Vec<_>>(), ["idle"]);
     assert_eq!(linked.module.global_variables.len(), 2);
     let entry = &linked.entry_points[0];

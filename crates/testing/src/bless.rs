@@ -50,8 +50,7 @@ pub(crate) fn run(
         }
         let Some(picture) = &port.actual else { continue };
         if let Some(metric) = port.metric.filter(|metric| !metric.judge(picture, picture).passed) {
-            let why =
-                format!("{}: it would not pass against itself by {metric}: there are numbers that are none", port.name);
+            let why = format!("{}: it would not pass against itself by {metric}: it contains NaN", port.name);
             outcome.problems.push(Problem::NotBlessed(why));
             continue;
         }

@@ -5,11 +5,11 @@ use tyndall_document::codes;
 codes! {
     /// Every class of mistake that this crate reports and none below it.
     CODES:
-    /// Frames are no frames.
+    /// `frames` is not a list of ascending frame numbers.
     BAD_FRAMES = "bad-frames";
     /// The file looks at nothing.
     NO_TAPS = "no-taps";
-    /// A text is no pattern of `pass.port`.
+    /// A text is not a pattern of `pass.port`.
     BAD_PATTERN = "bad-pattern";
     /// A tap says nothing about the ports that it looks at.
     EMPTY_TAP = "empty-tap";
@@ -17,11 +17,11 @@ codes! {
     EMPTY_PATTERN = "empty-pattern";
     /// A pattern matches only ports of passes that are switched off.
     TAP_OFF = "tap-off";
-    /// A tolerance is no tolerance, or looser than any may be.
+    /// A tolerance is invalid, or looser than allowed.
     BAD_TOLERANCE = "bad-tolerance";
     /// A tolerance is loose and nothing says why, or a text that should say something is blank.
     MISSING_REASON = "missing-reason";
-    /// A name is no class of adapters.
+    /// An unknown class of adapters.
     UNKNOWN_ADAPTER_CLASS = "unknown-adapter-class";
     /// A check does not fit what the port holds.
     WRONG_CHECK = "wrong-check";

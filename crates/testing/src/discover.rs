@@ -31,7 +31,7 @@ pub fn discover(paths: &[PathBuf]) -> Result<Found, String> {
         } else if path.is_file() && path.to_string_lossy().ends_with(SUFFIX) {
             found.tests.push(tidy(path));
         } else if path.is_file() {
-            return Err(format!("{} is no test: its name does not end in {SUFFIX}", path.display()));
+            return Err(format!("{} is not a test: its name does not end in {SUFFIX}", path.display()));
         } else {
             return Err(format!("there is no file or folder {}", path.display()));
         }

@@ -32,7 +32,7 @@ pub(crate) fn map(actual: &Picture, expected: &Picture) -> Result<Vec<f64>, Stri
     }
     let Image { width, height, layers, channels, .. } = actual;
     if ![1, 3].contains(&channels) {
-        return Err(format!("{channels} channels are no colour: FLIP compares grey, or red, green and blue"));
+        return Err(format!("{channels} channels are not a colour: FLIP compares grey, or red, green and blue"));
     }
     let texels = (width * height * channels) as usize;
     let layer = |image: &Image<f64>, layer: u32| {

@@ -81,7 +81,7 @@ impl Metric {
         match *self {
             Metric::Exact => None,
             Metric::Absolute { tolerance, failing } => over("the failing part", failing, Self::MOST_FAILING)
-                .or((tolerance < 0.0).then(|| format!("a tolerance of {tolerance} is none"))),
+                .or((tolerance < 0.0).then(|| format!("a tolerance must be at least 0, got {tolerance}"))),
             Metric::RelativeRmse { tolerance } => over("the relative RMSE", tolerance, Self::MOST_RMSE),
             Metric::Flip { mean, p99 } => over("the mean of FLIP", mean, Self::MOST_FLIP_MEAN)
                 .or(p99.and_then(|p99| over("the 99th percentile of FLIP", p99, Self::MOST_FLIP_P99))),

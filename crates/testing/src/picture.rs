@@ -106,7 +106,7 @@ impl Picture {
         places.map(|place| Image::new(image.width, image.height, 1, plane(place))).collect()
     }
 
-    /// What it holds in few words: mean, least and largest number, and how many are none.
+    /// A summary: mean, least and largest number, and how many are NaN or infinite.
     pub(crate) fn figures(&self) -> String {
         let image = self.compared();
         let numbers = image.data.iter().copied().filter(|number| number.is_finite());

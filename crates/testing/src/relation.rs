@@ -37,10 +37,10 @@ pub(crate) fn judge(
             Err(why) => fails(&why),
         })),
         Change::Differs(least) => each(&|other| {
-            // A cap on how loose a metric may be is no cap on how much must differ: what is measured is wanted here.
+            // The cap on how loose a metric may be does not limit how much must differ: only the measurement counts here.
             let comparable = |picture: &Picture| picture.compared().data.iter().all(|value| value.is_finite());
             if !(comparable(other) && comparable(own)) || other.compared().data.len() != own.compared().data.len() {
-                return fails("numbers that are none, or another size, are no difference that is meant");
+                return fails("NaN or another size does not count as a difference");
             }
             let found = Metric::RelativeRmse { tolerance: least }.judge(other, own);
             Judgement::new(!found.passed, format!("must differ by more: {}", found.figures), 1.0 / found.excess)

@@ -53,7 +53,7 @@ fn final_ports(ready: &Ready, own: &[Rendered]) -> Vec<PortRef> {
     ports
 }
 
-/// The first port that differs, in the order in which passes run: what follows from it is no news.
+/// The first port that differs, in the order in which passes run: what follows from it adds nothing.
 fn differing(ready: &Ready, name: &str, own: &Rendered, other: &Rendered) -> Option<String> {
     let mut ports: Vec<&PortRef> = other.ports.keys().collect();
     ports.sort_by_key(|port| ready.plan.planned(**port));

@@ -56,7 +56,7 @@ pub fn run(workspace: &Workspace) -> Result<(), Failure> {
 fn check_assets() -> Result<(), Failure> {
     match std::env::var_os(ASSETS) {
         Some(folder) if !std::path::Path::new(&folder).is_dir() => {
-            Err(Failure::usage(format!("{ASSETS} names {}, which is no folder", folder.to_string_lossy())))
+            Err(Failure::usage(format!("{ASSETS} names {}, which is not a folder", folder.to_string_lossy())))
         }
         _ => Ok(()),
     }
@@ -98,7 +98,7 @@ fn tests(workspace: &Workspace, tally: &mut Tally) -> Result<(), Failure> {
     announce(&command);
     let mut child = command.spawn().map_err(|error| not_started(&command, &error))?;
     if let Some(out) = child.stdout.take() {
-        // Lines as bytes: a test may print what is no UTF-8.
+        // Lines as bytes: a test may print text that is not UTF-8.
         for line in BufReader::new(out).split(b'\n').map_while(Result::ok) {
             let line = String::from_utf8_lossy(&line);
             println!("{line}");

@@ -113,7 +113,7 @@ impl Gbuffer {
         let resolve = Kernel::new(setup, shaders.get("gbuffer.wgsl")?, "main")?;
         let size = match setup.pass.resource(setup.pass.port("depth")?) {
             Some(Resource::Texture { width, height, .. }) => [*width, *height, 1],
-            _ => return Err(setup.pass.refuse("its depth is no texture")),
+            _ => return Err(setup.pass.refuse("its depth is not a texture")),
         };
         Ok(Self { visibility, resolve, size })
     }

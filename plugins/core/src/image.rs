@@ -59,7 +59,7 @@ struct Picture {
 impl Picture {
     fn new(setup: &Setup<'_>) -> Result<Self, GpuError> {
         let Some(ParamValue::File(path)) = setup.param("file") else {
-            return Err(setup.pass.refuse("its `file` is no path"));
+            return Err(setup.pass.refuse("its `file` is not a path"));
         };
         let input = |reason: String| GpuError::Input { pass: setup.pass.name().to_owned(), reason };
         let image = tyndall_image::read(Path::new(path)).map_err(|error| input(error.to_string()))?;

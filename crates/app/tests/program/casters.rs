@@ -115,7 +115,7 @@ fn the_order_of_triangles_corners_and_vertices_is_no_matter() {
     assert!(errors[0] <= 1e-5 && errors[1] <= 1e-5, "{errors:?}");
 }
 
-/// Triangles without area, by their indices, by their positions, and along a line; one twice over is no degenerate one, and
+/// Triangles without area, by their indices, by their positions, and along a line; a duplicate is not degenerate, and
 /// casts as one does.
 #[test]
 fn degenerate_triangles_cast_nothing() {
@@ -137,7 +137,7 @@ fn degenerate_triangles_cast_nothing() {
     assert!(error(&plain[0], &pictures(&desk, &mesh)[0]) > 1e-2);
 }
 
-/// A transform that is no number is a mistake with its place, whatever it transforms.
+/// A transform that is not finite is a mistake with its place, whatever it transforms.
 #[test]
 fn transforms_that_are_no_numbers_are_refused() {
     let desk = Desk::new();

@@ -131,7 +131,7 @@ fn each_reason_not_to_run_has_its_own_end() {
     let desk = Desk::new();
     assert!(desk.ends(2, &["test"]).err.contains("no tests found"));
     assert!(desk.ends(2, &["test", "nowhere"]).err.contains("there is no file or folder nowhere"));
-    assert!(desk.ends(2, &["test", "fog.graph.ron"]).err.contains("is no test"));
+    assert!(desk.ends(2, &["test", "fog.graph.ron"]).err.contains("is not a test"));
     test(&desk, "\"aire.radiance\": (golden: Exact)");
     let wrong = desk.ends(2, &["test"]);
     assert!(wrong.out.contains("empty-pattern") && wrong.out.contains("did you mean `air.radiance`?"), "{}", wrong.out);
@@ -152,7 +152,7 @@ fn files_that_are_wrong_are_told_by_their_names() {
     desk.ends(0, &["test", "--bless"]);
     // The same file by two names is one test.
     assert_eq!(last_line(&desk.ends(0, &["test", "fog.test.ron", "./fog.test.ron", "."])), "1 passed, 0 failed");
-    // A port that no test looks at is no success.
+    // It is not a success if no test looks at the port.
     let nothing = desk.ends(2, &["test", "--tap", "aire.*"]);
     assert!(nothing.err.contains("no test looks at a port that matches `aire.*`"), "{}", nothing.err);
     assert_eq!(last_line(&nothing), "0 passed, 0 failed");
@@ -272,10 +272,10 @@ fn diff_compares_two_files() {
     write("rgb.npy", &colour(3), Meaning::Color);
     write("rgba.npy", &colour(4), Meaning::Color);
     assert!(desk.ends(0, &["diff", "rgb.npy", "rgba.npy"]).out.contains("only one of them has alpha"));
-    // FLIP sees every layer, refuses what is no colour, and NaN passes on neither side.
+    // FLIP sees every layer, refuses what is not a colour, and NaN passes on neither side.
     let flip = |code, a: &str, b: &str| desk.ends(code, &["diff", a, b, "--by", "Flip(mean: 0.01)"]).out;
     write("two.npy", &colour(2), Meaning::Data);
-    assert!(flip(1, "two.npy", "two.npy").contains("2 channels are no colour"));
+    assert!(flip(1, "two.npy", "two.npy").contains("2 channels are not a colour"));
     let layers = |second: f32| Image {
         layers: 2,
         height: 8,

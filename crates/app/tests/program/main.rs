@@ -5,6 +5,7 @@
 mod accuracy;
 mod aerial;
 mod analytic_casters;
+mod architecture;
 mod assets;
 mod bench;
 mod biri;

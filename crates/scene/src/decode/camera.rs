@@ -8,7 +8,7 @@ use crate::codes::{CAMERA_ON_TARGET, UP_ALONG_VIEW};
 use crate::model::Camera;
 use crate::read::{Range, animated, direction, number};
 
-/// A sine of the angle between `up` and the view below this is none.
+/// Below this sine of the angle between them, `up` is parallel to the view.
 const PARALLEL: f64 = 1e-9;
 
 /// What a scene file says of the camera.

@@ -154,7 +154,7 @@ fn triangles(
             rim.map(|w| [w[0], w[1], indices[0]]).filter(distinct).collect()
         }
         _ if indices.len() % 3 != 0 => {
-            let message = format!("{} indices are no whole number of triangles", indices.len());
+            let message = format!("{} indices do not form whole triangles", indices.len());
             return Err(Fault::new(GLTF_INDEX_RANGE, message)).at(label);
         }
         _ => indices.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),

@@ -137,7 +137,7 @@ impl Sites<'_> {
         }
     }
 
-    /// The count of threads that did not get to the end, which is no port.
+    /// Whether it is the count of threads whose loops were ended early, which is not a port.
     fn is_unfinished(&self, pointer: Handle<Expression>) -> bool {
         let Expression::GlobalVariable(global) = self.function.expressions[pointer] else { return false };
         self.linked.module.global_variables[global].name.as_deref() == Some(UNFINISHED)

@@ -150,7 +150,7 @@ impl Checker<'_> {
         found.then_some(tapped)
     }
 
-    /// Why a metric is none for a port, where it is that of the eye.
+    /// Why FLIP cannot be used for a port.
     fn unseen(&self, port: PortRef, metric: &Metric) -> Option<(tyndall_document::Code, String)> {
         let is_unseen = matches!(metric, Metric::Flip { .. })
             && class(self.graph, port).is_some_and(|class| class != Class::Display);
@@ -170,7 +170,7 @@ impl Checker<'_> {
                 Some((codes::VACUOUS_CHECK, format!("`{name}` is held against itself")))
             }
             Property::AlphaOne if !matches!(class, Some(Class::Color | Class::Display)) => {
-                wrong("is no colour and has no alpha")
+                wrong("is not a colour, so it has no alpha")
             }
             Property::UnitLength { .. } if class != Some(Class::Vector) => wrong("holds no vectors"),
             Property::CpuReference { by } => self.without_reference(port).or_else(|| self.unseen(port, by)),

@@ -63,7 +63,7 @@ fn number(decoder: &mut Decoder<'_>, fields: &Fields<'_>, name: &str) -> Option<
     fields.required(decoder, name).and_then(|node| decoder.float(node))
 }
 
-/// `None` where the field is there and is no number.
+/// `None` if the field exists but is not a number.
 fn optional(decoder: &mut Decoder<'_>, fields: &Fields<'_>, name: &str) -> Option<Option<f64>> {
     match fields.get(name) {
         None => Some(None),

@@ -151,7 +151,7 @@ fn tap(
 ) -> Option<Tap> {
     if !is_pattern(pattern) {
         let place = decoder.place(span);
-        let message = format!("`{pattern}` is no pattern of ports");
+        let message = format!("`{pattern}` is not a pattern of ports");
         let problem = Diagnostic::error(codes::BAD_PATTERN, place, message);
         decoder.report(problem.suggest("write `pass.port`, `pass.*`, `*.port` or `*`"));
     }
@@ -195,7 +195,7 @@ fn adapters(decoder: &mut Decoder<'_>, node: &Node) -> Vec<(AdapterClass, Metric
     for (name, span, node) in entries {
         let Some(class) = AdapterClass::named(name) else {
             let place = decoder.place(span);
-            let message = format!("`{name}` is no class of adapters");
+            let message = format!("unknown class of adapters `{name}`");
             let names = AdapterClass::ALL.map(AdapterClass::name).join(", ");
             decoder.report(Diagnostic::error(codes::UNKNOWN_ADAPTER_CLASS, place, message).suggest(names));
             continue;

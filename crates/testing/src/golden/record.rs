@@ -143,7 +143,7 @@ fn record(decoder: &mut Decoder<'_>, node: &Node) -> Option<Record> {
         }
         _ => None,
     };
-    // A class that this program does not know is none that it runs on.
+    // A class that this program does not know cannot be the one that it runs on.
     let adapter = AdapterClass::named(&adapter).unwrap_or(AdapterClass::Other);
     Some(Record { content, adapter, program, made_from })
 }

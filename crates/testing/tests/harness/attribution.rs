@@ -182,7 +182,7 @@ fn alone_what_had_to_run_along_is_to_blame() {
     let plain = chain.plain();
     assert_eq!(plain.guilty(), ["two"], "{}", plain.text());
     let alone = chain.isolated();
-    // `twin` is no input of `two`, so its check is left out, and said to be: now `two` is the one in doubt.
+    // `twin` is not an input of `two`, so its check is left out, and said to be: now `two` is the one in doubt.
     assert_eq!(alone.guilty(), ["three"], "{}", alone.text());
     assert_eq!(alone.suspicions[0].unheld, ["two.result"]);
     assert!(

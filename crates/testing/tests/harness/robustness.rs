@@ -30,7 +30,7 @@ fn what_is_read_before_it_is_written_is_caught_by_the_poison() {
     let caught = chain.run(&options(true));
     assert!(!caught.passed());
     assert!(caught.text().contains("`three.result` came out different"), "{}", caught.text());
-    assert_eq!(caught.robustness.len(), 1, "what follows from it is no news: {:?}", caught.robustness);
+    assert_eq!(caught.robustness.len(), 1, "what follows from it is not repeated: {:?}", caught.robustness);
 }
 
 /// Another size has no goldens, and every other way still holds.
