@@ -17,7 +17,7 @@
 //   p 2/(1 + v^2) dv = scale/rho^2 * Q^(1/2) dpsi,   Q = cos^2(psi/2) + rho^2 sin^2(psi/2)
 // and, of Schlick's function, scale/rho^3 * Q dpsi. In y all of it is algebraic: no trigonometric function is needed.
 //
-// A measured phase function is no lobe. There the nodes stand evenly in its own integral instead:
+// A measured phase function is not a lobe. There the nodes are spaced evenly in its own integral instead:
 //   rest      integral of p over scattering angles a from the point's on, 0..pi; v = tan(a/2)
 //   L = sigma_s I/h * integral of e^(-sigma_t (t + h v)) d rest
 // so what is left to integrate is smooth whatever the function is: importance sampling without chance.

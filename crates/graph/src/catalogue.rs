@@ -9,14 +9,14 @@ use tyndall_document::Diagnostics;
 use crate::descriptor::PassDescriptor;
 use crate::signature::{DescriptorError, Signature};
 
-/// Width and height in texels of the picture in a file; `None` where it holds none that can be read.
+/// Width and height in texels of the picture in a file; `None` if it is not a readable picture.
 pub type PictureSize = fn(&Path) -> Option<(u32, u32)>;
 
 /// Every pass by name. All names are known from the start; a descriptor is made when a graph first uses its pass, once
 /// for all clones of the catalogue.
 #[derive(Debug, Clone, Default)]
 pub struct Catalogue {
-    /// How large the pictures in files are, for passes whose ports have their size.
+    /// Gives the sizes of pictures in files, for passes whose ports have their size.
     pub picture_size: Option<PictureSize>,
     kinds: FxHashMap<String, Arc<LazyKind>>,
     plugins: FxHashMap<String, PluginEntry>,
@@ -58,7 +58,7 @@ impl Kind {
 }
 
 impl Catalogue {
-    /// One without passes.
+    /// A catalogue without passes.
     pub fn new() -> Self {
         Self::default()
     }
@@ -66,8 +66,8 @@ impl Catalogue {
     /// Adds a pass whose descriptor is known.
     ///
     /// # Errors
-    /// Everything that contradicts itself in the descriptor, or that a pass of this name is there already. The
-    /// catalogue is unchanged then.
+    /// Every contradiction in the descriptor, or that there already is a pass of this name. Then the catalogue is
+    /// unchanged.
     pub fn insert(&mut self, descriptor: Arc<PassDescriptor>) -> Result<(), Vec<DescriptorError>> {
         if self.kinds.contains_key(&descriptor.name) {
             return Err(vec![DescriptorError::DuplicatePass(descriptor.name.clone())]);

@@ -5,11 +5,11 @@ use tyndall_document::codes;
 codes! {
     /// Every class of mistake that this crate reports and none below it.
     CODES:
-    /// A file whose picture sets the size of a port holds none.
+    /// A file whose picture sets the size of a port does not hold a picture.
     BAD_PICTURE = "bad-picture";
     /// The graph has no outputs.
     NO_OUTPUTS = "no-outputs";
-    /// `use` names a pass that no plugin has.
+    /// `use` names a pass that does not exist.
     UNKNOWN_PASS = "unknown-pass";
     /// A pass of this kind has no port of this name.
     UNKNOWN_PORT = "unknown-port";
@@ -17,23 +17,23 @@ codes! {
     UNKNOWN_PARAMETER = "unknown-parameter";
     /// `pass.port` names a pass that the graph does not have.
     UNKNOWN_REFERENCE = "unknown-reference";
-    /// A text that should be `pass.port` is not.
+    /// A text that is not of the form `pass.port`.
     BAD_REFERENCE = "bad-reference";
-    /// An input is named as if something could be read from it.
+    /// An input is used as if it could be read.
     NOT_AN_OUTPUT = "not-an-output";
-    /// An output is named as if it could be fed.
+    /// An output is used as if it could be connected to a port.
     NOT_AN_INPUT = "not-an-input";
-    /// A required input is not fed.
+    /// A required input is not connected.
     MISSING_INPUT = "missing-input";
-    /// A texture is fed to a buffer, or the like.
+    /// A texture is connected to a buffer, or the like.
     WRONG_KIND = "wrong-kind";
-    /// A texture of another dimension is fed.
+    /// A texture of another dimension is connected.
     WRONG_DIMENSION = "wrong-dimension";
-    /// A texture is fed whose channels mean something else.
+    /// A texture is connected whose channels have another meaning.
     WRONG_CLASS = "wrong-class";
-    /// A texture of another format is fed.
+    /// A texture of another format is connected.
     WRONG_FORMAT = "wrong-format";
-    /// A buffer or value with elements of another type is fed.
+    /// A buffer or value with elements of another type is connected.
     WRONG_ELEMENT = "wrong-element";
     /// The units of both ends of a connection differ.
     WRONG_UNIT = "wrong-unit";
@@ -41,7 +41,7 @@ codes! {
     WRONG_SIZE = "wrong-size";
     /// Passes wait for each other.
     CYCLE = "cycle";
-    /// A word is not one of those to choose from.
+    /// A word is not one of the choices.
     UNKNOWN_CHOICE = "unknown-choice";
     /// `$name` names a parameter that the graph does not have.
     UNKNOWN_NAME = "unknown-name";

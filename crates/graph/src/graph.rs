@@ -1,4 +1,4 @@
-//! A graph whose every name has been resolved and every value checked.
+//! A graph in which every name has been resolved and every value checked.
 
 use std::sync::Arc;
 
@@ -20,11 +20,11 @@ use crate::wiring::Wiring;
 pub struct Graph {
     /// The file that it came from.
     pub source: Arc<Source>,
-    /// What the file says it is for.
+    /// What the graph is for.
     pub about: String,
     /// The scene that the file names: a path that is relative to the working directory (or absolute).
     pub scene: Option<String>,
-    /// Size of the frame in pixels: that of the overrides, else of the file, else 640×480.
+    /// Size of the frame in pixels: from the overrides, else from the file, else 640×480.
     pub size: (u32, u32),
     /// Graph parameters with the values that they have after overrides, in file order.
     pub params: Vec<GraphParam>,
@@ -45,13 +45,13 @@ pub struct Graph {
 pub struct Pass {
     /// Name in the file.
     pub name: String,
-    /// Where the name stands.
+    /// The place of the name.
     pub span: Span,
     /// Settings, one for each of the descriptor's parameters.
     pub params: Table<ParamDescriptor, ParamSetting>,
-    /// Whether it is switched on.
+    /// Whether it is enabled.
     pub enabled: bool,
-    /// The graph parameter that switches it, where one does.
+    /// The graph parameter that enables it, if there is one.
     pub switch: Option<String>,
     pub(crate) kind: Arc<Kind>,
 }
@@ -95,9 +95,9 @@ pub struct Connection {
     pub from: PortRef,
     /// The port that reads it.
     pub to: PortRef,
-    /// It carries what was written in the frame before, and so orders nothing.
+    /// Whether it carries what was written in the frame before, and so does not order passes.
     pub history: bool,
-    /// Where `"pass.port"` stands.
+    /// The place of `"pass.port"`.
     pub span: Span,
 }
 
@@ -124,8 +124,8 @@ pub struct ParamRef {
 pub struct GraphParam {
     /// Name, without `$`.
     pub name: String,
-    /// Its value after overrides. A text is a [`ParamValue::Choice`] here; where it names a file, the settings that
-    /// use it hold the path.
+    /// Its value after overrides. A text is a [`ParamValue::Choice`] here; if it names a file, the settings that use it
+    /// hold the path.
     pub value: ParamValue,
     /// The parameters of passes that are set to it.
     pub uses: Vec<ParamRef>,
@@ -151,7 +151,7 @@ impl Graph {
         self.names.find(name, |pass| self.passes[pass].name == name)
     }
 
-    /// Whether a pass that is on feeds this input of the pass.
+    /// Whether an enabled pass feeds this input of the pass.
     pub fn is_fed(&self, pass: Handle<Pass>, input: &str) -> bool {
         let port = self.passes[pass].descriptor().port_named(input);
         let connection = port.and_then(|port| self.connection_to(PortRef { pass, port }));
@@ -177,7 +177,7 @@ impl Graph {
         format!("{}.{}", self.passes[port.pass].name, self.port(port).name)
     }
 
-    /// Every port that a pass writes, those of passes that are switched off too, in file order.
+    /// Every port that a pass writes, those of disabled passes included, in file order.
     pub fn written_ports(&self) -> impl Iterator<Item = PortRef> + '_ {
         self.passes.entries().flat_map(|(pass, of)| {
             let ports = of.descriptor().ports.entries().filter(|(_, port)| port.role.is_output());
@@ -193,7 +193,7 @@ impl Graph {
     pub fn find(&self, name: &str, place: Place) -> Result<PortRef, Diagnostic> {
         let Some((pass_name, port_name)) = name.split_once('.') else { return self.find_output(name, place) };
         let Some(pass) = self.pass_named(pass_name) else {
-            let message = format!("there is no pass named `{pass_name}`");
+            let message = format!("there is no pass `{pass_name}`");
             let problem = Diagnostic::error(codes::UNKNOWN_REFERENCE, place, message);
             return Err(problem.suggest_near_as(pass_name, self.pass_names(), |near| format!("{near}.{port_name}")));
         };
@@ -201,12 +201,11 @@ impl Graph {
         match descriptor.port_named(port_name) {
             Some(port) if descriptor.ports[port].role.is_output() => Ok(PortRef { pass, port }),
             Some(_) => {
-                let message =
-                    format!("`{port_name}` is an input of `{}`, and nothing can be read from it", descriptor.name);
+                let message = format!("`{port_name}` is an input of `{}`, so it cannot be read", descriptor.name);
                 Err(Diagnostic::error(codes::NOT_AN_OUTPUT, place, message))
             }
             None => {
-                let message = format!("`{}` has no port named `{port_name}`", descriptor.name);
+                let message = format!("`{}` has no port `{port_name}`", descriptor.name);
                 let ports = descriptor.outputs().map(|port| port.name.as_str());
                 let problem = Diagnostic::error(codes::UNKNOWN_PORT, place, message);
                 Err(problem.suggest_near_as(port_name, ports, |near| format!("{pass_name}.{near}")))
@@ -218,15 +217,15 @@ impl Graph {
         if let Some((_, port)) = self.outputs.iter().find(|(output, _)| output == name) {
             return Ok(*port);
         }
-        let message = format!("the graph has no output named `{name}`");
+        let message = format!("the graph has no output `{name}`");
         let outputs = self.outputs.iter().map(|(output, _)| output.as_str());
         let otherwise = "`pass.port` names any port".to_owned();
         let otherwise = available(outputs.clone()).map_or(otherwise.clone(), |list| format!("{list}; {otherwise}"));
         Err(Diagnostic::error(codes::UNKNOWN_OUTPUT, place, message).suggest_near_or(name, outputs, otherwise))
     }
 
-    /// The parameters that a name means: one for `pass.parameter`, all that use it for a parameter of the graph, none
-    /// where the name is unknown.
+    /// The parameters that a name means: one for `pass.parameter`, all that use it for a parameter of the graph, none if
+    /// the name is unknown.
     pub fn find_params(&self, name: &str) -> Vec<ParamRef> {
         let Some((pass, param)) = name.split_once('.') else {
             return self

@@ -1,4 +1,4 @@
-//! What the command line puts in the place of what the file says.
+//! Values from the command line that replace those of the file.
 
 use std::sync::Arc;
 
@@ -6,14 +6,14 @@ use tyndall_document::{Code, Diagnostic, Diagnostics, Node, Place, Source, parse
 
 use crate::codes;
 
-/// What the command line puts in the place of what the file says.
+/// Values from the command line that replace those of the file.
 #[derive(Debug, Clone, Default)]
 pub struct Overrides {
-    /// Values of parameters; the last one of a name wins, and `pass.parameter` beats `$name`.
+    /// Values of parameters; the last one for a name wins, and `pass.parameter` takes precedence over `$name`.
     pub params: Vec<Override>,
     /// Size of the frame in pixels.
     pub size: Option<(u32, u32)>,
-    /// Another scene, relative to the working directory: that of the file need not exist then.
+    /// Another scene, relative to the working directory; then that of the file need not exist.
     pub scene: Option<String>,
 }
 
@@ -38,7 +38,7 @@ impl Override {
     pub fn parse(text: &str, argument: &str) -> Result<Self, Diagnostics> {
         let mut out = Diagnostics::default();
         let Some((name, value)) = text.split_once('=') else {
-            let message = format!("`{text}` gives no value");
+            let message = format!("`{text}` has no value");
             out.push(at_argument(codes::BAD_ARGUMENT, argument, message).suggest("write NAME=VALUE"));
             return Err(out);
         };

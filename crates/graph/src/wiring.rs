@@ -11,18 +11,18 @@ use crate::graph::{Connection, Pass, PortRef};
 use crate::handle::{Handle, Segment, Table};
 use crate::signature::PortSignature;
 
-/// A port of a pass of a graph, inputs too: nothing of its own, but a column for each thing that is to be known of it.
+/// A port of a pass of a graph, inputs included. It holds nothing itself: each of its properties is a column of a table.
 #[derive(Debug)]
 pub(crate) enum GraphPort {}
 
 /// What flows into a port.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Feed {
-    /// Nothing: an output, or an input that a mistake left unfed.
+    /// Nothing: an output, or an input that a mistake left unconnected.
     Nothing,
-    /// What a pass that is switched on writes to this port.
+    /// What an enabled pass writes to this port.
     Port(Handle<GraphPort>),
-    /// The constant that stands for this port: an optional input, or an output of a pass that is switched off.
+    /// The constant that stands for this port: an optional input, or an output of a disabled pass.
     Constant(Handle<GraphPort>),
 }
 
@@ -44,7 +44,7 @@ impl Feed {
     }
 }
 
-/// What flows into every port; of an output of a switched-off pass, what flows out of it.
+/// What flows into every port; for an output of a disabled pass, what flows out of it.
 pub(crate) type Feeds = Table<GraphPort, Feed>;
 
 /// What flows through a port, without its size.
@@ -57,7 +57,7 @@ pub(crate) struct Flow {
 /// What flows through a port, as memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shape {
-    /// A mistake hides it.
+    /// Unknown, because a mistake hides it.
     Unknown,
     Texture {
         dimension: Dimension,
@@ -101,7 +101,7 @@ impl Passes {
         self.ports[port.pass].at(port.port)
     }
 
-    /// Whose port it is, and which.
+    /// The pass, and which of its ports it is.
     pub fn port_ref(&self, port: Handle<GraphPort>) -> PortRef {
         let pass = self.pass_of[port];
         PortRef { pass, port: self.ports[pass].key(port) }
@@ -144,20 +144,20 @@ pub(crate) struct Wiring {
     pub passes: Passes,
     /// What the file connects to a port.
     pub connection_to: Table<GraphPort, Option<Handle<Connection>>>,
-    /// The history ports that are fed.
+    /// The history ports that are connected.
     pub history: Vec<Handle<GraphPort>>,
     /// Passes, each after those that it reads.
     pub order: Vec<Handle<Pass>>,
     /// Whether a pass is switched on.
     pub enabled: Table<Pass, bool>,
-    /// What feeds a port once switched-off passes have been passed through.
+    /// What feeds a port once disabled passes have been passed through.
     pub feeds: Feeds,
     /// What flows through a port.
     pub flows: Table<GraphPort, Flow>,
 }
 
 impl Wiring {
-    /// The ports of other passes that a pass reads in the same frame, past those that are switched off.
+    /// The ports of other passes that a pass reads in the same frame, past disabled ones.
     pub fn sources(&self, pass: Handle<Pass>) -> impl Iterator<Item = Handle<GraphPort>> + '_ {
         self.passes.sources(pass, &self.feeds)
     }

@@ -97,7 +97,7 @@ fn presets_that_contradict_their_pass_are_refused() {
     let one = |name: &str, value: ParamValue| wrong(vec![preset("hazy", &[(name, value)])]);
     assert_eq!(wrong(hazy()), "");
     assert!(wrong(vec![preset("foggy", &[])]).contains("is not one of the choices of the parameter `preset`"));
-    assert!(wrong(vec![preset("hazy", &[]), preset("hazy", &[])]).contains("stands twice"));
+    assert!(wrong(vec![preset("hazy", &[]), preset("hazy", &[])]).contains("appears twice"));
     assert!(one("densty", ParamValue::Float(1.0)).contains("not a parameter of the pass"));
     assert!(one("density", ParamValue::Integer(1)).contains("must be a number, got a whole number"));
     assert!(one("density", ParamValue::Float(11.0)).contains("must be between 0 and 10, got 11"));

@@ -30,7 +30,7 @@ fn rows(heading: &str) -> Vec<(&'static str, Option<&'static str>)> {
 /// Reads a manifest beside the page's shader.
 fn assert_is_read(manifest: &str) {
     let folder = Folder::embedded("haze", &[("plugin.ron", manifest), ("mix.wgsl", block("wgsl"))]);
-    let found = Registry::new(Vec::new(), vec![folder], &Library::default(), &[]).mistakes();
+    let found = Registry::new(Vec::new(), vec![folder], &Library::default()).mistakes();
     assert!(found.is_empty(), "{manifest}\n{}", render_text(&found, false));
 }
 
@@ -59,21 +59,24 @@ fn every_key_is_shown_with_a_part_of_the_example() {
 /// Each form takes the place of another one in the example.
 #[test]
 fn every_form_is_shown_and_read() {
+    let features = tyndall_scene::Extensions::default().features("haze");
+    let features: Vec<&str> = features.iter().map(|feature| feature.name).collect();
     let forms = [
+        ("Limits", "Spot(\"spots are drawn as point lights\")", features.as_slice()),
         ("Classes", "class: Color", keys::CLASS),
         ("Sizes", "size: FramePixels(1.0)", keys::SIZE),
         ("While a pass is off", "disabled: Constant(0.0, 0.0, 0.0, 1.0)", keys::DISABLED),
         ("Dispatch", "dispatch: \"mixed\"", &[]),
     ];
     for (heading, example, known) in forms {
-        let (key, _) = example.split_once(' ').unwrap();
+        let key = example.split_once(": ").map_or(String::new(), |(key, _)| format!("{key}: "));
         let rows = rows(heading);
         let shown: Vec<&str> = rows.iter().map(|(form, _)| form.split('(').next().unwrap()).collect();
         assert!(known.is_empty() || shown == known, "{heading}: {shown:?}");
         for (form, _) in rows {
             let manifest = block("ron");
             assert_eq!(manifest.matches(example).count(), 1, "{example}");
-            assert_is_read(&manifest.replace(example, &format!("{key} {form}")));
+            assert_is_read(&manifest.replace(example, &format!("{key}{form}")));
         }
     }
 }

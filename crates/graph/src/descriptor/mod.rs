@@ -26,30 +26,30 @@ pub struct PassDescriptor {
     pub name: String,
     /// What the pass computes, in a sentence or a paragraph.
     pub about: String,
-    /// Paper and equation that it comes from; empty where there is none.
+    /// Paper and equation that it comes from; may be empty.
     pub source: String,
     /// Inputs and outputs, in the order in which they are documented.
     pub ports: Table<PortDescriptor>,
     /// Parameters, in the order in which they are documented.
     pub params: Table<ParamDescriptor>,
-    /// Values of several parameters under one word. Where there are any, the pass has a parameter [`PRESET`] whose
-    /// choices are their names; they stand in for the defaults, so a parameter that is given keeps what it is given.
+    /// Values of several parameters under one word. If there are any, the pass has a parameter [`PRESET`] whose choices are
+    /// their names; they replace defaults, so a parameter that is set keeps its value.
     pub presets: Vec<Preset>,
     /// Names of the scene data that the pass reads (`camera`, `lights`, …), sorted. Opaque to the graph.
     pub scene: Vec<String>,
-    /// The pass does something that no port shows, so it is never culled.
+    /// Whether the pass does something that does not show in a port, so that it is never culled.
     pub side_effect: bool,
     /// Raised by the author whenever Rust code changes what the pass computes: a part of its fingerprint.
     pub revision: u32,
 }
 
 impl PassDescriptor {
-    /// The ports that must or may be fed, in order; an in-out port is one of them.
+    /// The ports that must or may be connected, in order; in-out ports are included.
     pub fn inputs(&self) -> impl Iterator<Item = &PortDescriptor> + Clone {
         self.ports.iter().filter(|port| port.role.is_input())
     }
 
-    /// The ports that other passes can read, in order; an in-out port is one of them.
+    /// The ports that other passes can read, in order; in-out ports are included.
     pub fn outputs(&self) -> impl Iterator<Item = &PortDescriptor> + Clone {
         self.ports.iter().filter(|port| port.role.is_output())
     }
@@ -88,7 +88,7 @@ pub const PRESET: &str = "preset";
 pub struct Preset {
     /// The word.
     pub name: String,
-    /// What it stands for.
+    /// What it is for.
     pub about: String,
     /// Parameters by name and their values; all others keep their defaults.
     pub values: Vec<(String, ParamValue)>,

@@ -11,13 +11,13 @@ pub struct ParamDescriptor {
     pub name: String,
     /// What it does.
     pub about: String,
-    /// Unit, `""` where there is none.
+    /// Unit; `""` if there is none.
     pub unit: String,
     /// What it accepts.
     pub accepts: ParamType,
     /// Value where a graph gives none.
     pub default: ParamValue,
-    /// A part of the pipeline (an `override` in WGSL), so a change of it builds a new one.
+    /// Whether it is part of the pipeline (an `override` in WGSL), so that a change builds a new one.
     pub fixed: bool,
 }
 
@@ -158,7 +158,7 @@ impl ParamType {
             ParamType::Integer { .. } => "a whole number".to_owned(),
             ParamType::Float { .. } => "a number".to_owned(),
             ParamType::Vector { length, .. } => format!("{length} numbers"),
-            ParamType::Choice { .. } => "one of some words".to_owned(),
+            ParamType::Choice { .. } => "a choice".to_owned(),
             ParamType::File => "a file".to_owned(),
         }
     }

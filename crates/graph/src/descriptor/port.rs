@@ -9,51 +9,51 @@ pub struct PortDescriptor {
     pub name: String,
     /// What flows through it.
     pub about: String,
-    /// Unit of its values, `""` where there is none or any will do. Two stated units must agree along an edge.
+    /// Unit of its values; `""` if there is none or any will do. The units of connected ports must agree.
     pub unit: String,
-    /// Which way it flows.
+    /// Its direction.
     pub role: Role,
-    /// What flows.
+    /// The kind of data.
     pub kind: PortKind,
-    /// How large it is. For an input: what is demanded (`None`: any size).
+    /// Its size. For an input: the size that it must have (`None`: any).
     pub size: Option<SizeRule>,
-    /// Of an output: the order of its elements carries no meaning (an appended list).
+    /// Of an output: whether the order of its elements has no meaning (an appended list).
     pub unordered: bool,
 }
 
-/// Which way a port flows.
+/// The direction of a port.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Role {
-    /// Must be fed.
+    /// Must be connected.
     Input,
-    /// May be fed; where it is not, every element reads as this value.
+    /// May be connected; if it is not, every element reads as this value.
     Optional([f32; 4]),
-    /// Fed with what its source held in the frame before; in the first frame every element reads as this value.
-    /// Such an edge orders nothing, so it may close a loop.
+    /// Reads what the connected port held in the frame before; in the first frame every element reads as this value.
+    /// Such a connection does not order passes, so it may close a loop.
     History([f32; 4]),
     /// Written by the pass, from nothing.
     Output {
-        /// What flows where the pass is switched off.
+        /// What flows while the pass is disabled.
         disabled: Disabled,
     },
-    /// Read and written in place: fed like an input, and yields a new version like an output.
-    /// Where the pass is switched off, what was fed flows on.
+    /// Read and written in place: connected like an input, and a new version like an output. While the pass is disabled,
+    /// the input is passed on.
     InOut,
 }
 
 impl Role {
-    /// A graph file may (or must) feed it.
+    /// Whether it can be connected to a port that it reads.
     pub fn is_input(&self) -> bool {
         !matches!(self, Role::Output { .. })
     }
 
-    /// Other passes may read it.
+    /// Whether other passes may read it.
     pub fn is_output(&self) -> bool {
         matches!(self, Role::Output { .. } | Role::InOut)
     }
 }
 
-/// What flows out of a port whose pass is switched off.
+/// What flows out of a port while its pass is disabled.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Disabled {
     /// What flows into this input of the same pass.
@@ -73,7 +73,7 @@ pub enum PortKind {
         class: Class,
         /// Of an output: its format. Of an input `None`: every format of the class is read.
         format: Option<Format>,
-        /// Read through a filtering sampler.
+        /// Whether it is read through a filtering sampler.
         filtered: bool,
     },
     /// A storage buffer of elements of one type.
@@ -93,8 +93,8 @@ pub enum PortKind {
 }
 
 impl PortKind {
-    /// How its numbers are stored, as far as this tells: those of a texture input that reads several formats, and of elements
-    /// that are structs (whose members may be of several types), count as 32-bit floats.
+    /// How its numbers are stored, as far as this is known: those of a texture input that reads several formats, and of
+    /// struct elements (whose members may be of several types), count as 32-bit floats.
     pub fn scalar(&self) -> Scalar {
         match self {
             PortKind::Texture { format, .. } => format.map_or(Scalar::F32, Format::scalar),

@@ -80,7 +80,7 @@ pub enum Extent {
     FramePixels(f64),
 }
 
-/// `the size of `depth``, `640 × 480`, `1/2 of the frame`: what a rule says, for messages and documentation.
+/// `the size of `depth``, `640 × 480`, `1/2 of the frame`: a rule in words, for messages and documentation.
 impl fmt::Display for SizeRule {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let uniform = |scale: f64| (*self == Self::frame(scale)).then_some(scale);
@@ -128,7 +128,7 @@ impl fmt::Display for Axis {
 
 /// An axis of a size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(missing_docs, reason = "they say it all")]
+#[allow(missing_docs, reason = "the names say it")]
 pub enum Axis {
     X,
     Y,

@@ -23,7 +23,7 @@ impl fmt::Display for Dimension {
     }
 }
 
-/// What the channels of a texture mean: it decides which ports may be joined, and how a file names the channels.
+/// What the channels of a texture mean, which decides which ports may be connected, and how a file names the channels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Class {
     /// Linear RGB in the first three channels: R, G, B, A in a file.
@@ -34,7 +34,7 @@ pub enum Class {
     Vector,
     /// Display-referred RGB, already encoded (sRGB).
     Display,
-    /// Whatever: numbers that only their reader understands (lookup tables, material layers, identifiers).
+    /// Numbers that only their reader understands (lookup tables, material layers, identifiers).
     Data,
     /// A rasteriser's depth buffer.
     RasterDepth,
@@ -146,8 +146,8 @@ impl Scalar {
         }
     }
 
-    /// Of a scalar, a vector, a matrix or an array in WGSL (`u32`, `vec3<u32>`, `array<atomic<u32>, 4>`); floats of all
-    /// others.
+    /// That of a scalar, vector, matrix or array type of WGSL (`u32`, `vec3<u32>`, `array<atomic<u32>, 4>`); floats for all
+    /// other types.
     pub(super) fn of_type(name: &str) -> Self {
         let innermost = name.rsplit('<').next().unwrap_or(name);
         match innermost.split(['>', ',']).next().map(str::trim) {

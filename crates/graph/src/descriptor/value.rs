@@ -22,7 +22,7 @@ pub enum ParamValue {
 }
 
 impl ParamValue {
-    /// A value whose type is its own: a text stays a [`ParamValue::Choice`] until its use says what it means.
+    /// A value as written: a text stays a [`ParamValue::Choice`] until its use says what it means.
     pub(crate) fn read(decoder: &mut Decoder<'_>, node: &Node) -> Option<Self> {
         match &node.value {
             Value::Bool(value) => Some(ParamValue::Bool(*value)),
@@ -36,7 +36,7 @@ impl ParamValue {
                 numbers.into_iter().collect::<Option<_>>().map(ParamValue::Vector)
             }
             _ => {
-                decoder.wrong_type(node, "a switch, a number, a text or 2 to 4 numbers");
+                decoder.wrong_type(node, "a switch, a number, a string or 2 to 4 numbers");
                 None
             }
         }

@@ -11,10 +11,10 @@ use crate::graph::PortRef;
 use crate::plan::Plan;
 
 /// Explains a pass, a `pass.port` or an output of the graph: why it was culled or ordered where it is, and why a port has
-/// its size, format, slot and company there.
+/// its size, format and slot, and which others share the slot.
 ///
 /// # Errors
-/// `unknown-reference`, `unknown-port` or `unknown-output` at the argument, where nothing has this name.
+/// `unknown-reference`, `unknown-port` or `unknown-output` at the argument, if nothing has this name.
 pub fn explain(plan: &Plan, name: &str) -> Result<String, Diagnostic> {
     let graph = &plan.graph;
     if let Some((pass, port)) = name.split_once('.')
@@ -40,7 +40,7 @@ fn unknown(plan: &Plan, name: &str) -> Diagnostic {
         let mistake = graph.find(name, place.clone()).err();
         return mistake.unwrap_or_else(|| Diagnostic::error(codes::UNKNOWN_PORT, place, "there is no such port"));
     }
-    let message = format!("the graph has no pass and no output named `{name}`");
+    let message = format!("the graph has neither a pass nor an output `{name}`");
     let outputs = graph.outputs.iter().map(|(output, _)| output.as_str());
     let otherwise = "name a pass, a `pass.port` or an output; `show` lists them";
     Diagnostic::error(codes::UNKNOWN_REFERENCE, place, message).suggest_near_or(
@@ -50,7 +50,7 @@ fn unknown(plan: &Plan, name: &str) -> Diagnostic {
     )
 }
 
-/// Lines of a heading and what belongs to it.
+/// A heading and its lines.
 struct Report {
     text: String,
 }

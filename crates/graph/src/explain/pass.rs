@@ -44,7 +44,7 @@ pub(super) fn explain(plan: &Plan, pass: Handle<Pass>) -> String {
     report.text
 }
 
-/// The shortest way from the pass to something that was asked for.
+/// The shortest path from the pass to something that was requested.
 fn needed_by(plan: &Plan, pass: Handle<Pass>) -> String {
     if plan.graph.pass(pass).descriptor().side_effect {
         return "it has a side effect, so it always runs".to_owned();
@@ -84,7 +84,7 @@ fn readers(plan: &Plan) -> FxHashMap<Handle<Pass>, Vec<(Handle<Pass>, String)>> 
     readers
 }
 
-/// What of a pass was asked for.
+/// The ports of a pass that were requested.
 fn end_of(plan: &Plan, pass: Handle<Pass>) -> Option<String> {
     let position = plan.position(pass)?;
     let root = plan.outputs_of(position).find(|port| plan.ports[*port].root)?;
@@ -129,12 +129,12 @@ fn placed(plan: &Plan, position: Handle<PlannedPass>) -> String {
     };
     let name = |pass: Handle<Pass>| &plan.graph.pass(pass).name;
     if before < pass {
-        return format!("behind `{}`, as in the file", name(before));
+        return format!("after `{}`, as in the file", name(before));
     }
     let after = plan.passes.iter().skip(position.index() + 1).find(|after| after.pass < pass);
     match after {
-        Some(after) => format!("before `{}`, which stands first in the file but depends on it", name(after.pass)),
-        None => format!("behind `{}`, which had to run earlier than the file has it", name(before)),
+        Some(after) => format!("before `{}`, which comes first in the file but depends on it", name(after.pass)),
+        None => format!("after `{}`, which had to run earlier than its place in the file", name(before)),
     }
 }
 
@@ -162,7 +162,7 @@ fn changes(plan: &Plan, position: Handle<PlannedPass>) -> Vec<String> {
     names
 }
 
-/// The passes that read one which does not run: they do not run either.
+/// The passes that read one that does not run: they do not run either.
 fn dead_readers(plan: &Plan, pass: Handle<Pass>) -> Vec<String> {
     let graph = &plan.graph;
     let read = graph.connections.iter().filter(|connection| connection.from.pass == pass);

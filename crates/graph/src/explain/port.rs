@@ -56,11 +56,11 @@ fn not_running(plan: &Plan, port: PortRef, report: &mut Report) {
     }
     match wiring.feeds[wiring.passes.port(port)] {
         Feed::Port(source) => {
-            report.line("instead", &format!("{} flows on", plan.graph.port_name(wiring.passes.port_ref(source))));
+            report.line("instead", &format!("{} is passed on", plan.graph.port_name(wiring.passes.port_ref(source))));
         }
         Feed::Constant(constant) => {
             let value = wiring.passes.signature(constant).constant;
-            report.line("instead", &format!("{} flows out of it", value_words(value)));
+            report.line("instead", &format!("{} is its output", value_words(value)));
         }
         Feed::Nothing => {}
     }
@@ -115,9 +115,9 @@ fn format(plan: &Plan, port: PortRef) -> String {
     let resource = resource(plan, port);
     let like = of_port.like.map(|like| &plan.graph.port(PortRef { port: like, ..port }).name);
     let why = match (of_port.role, like) {
-        (RoleKind::Output, Some(like)) => format!("that of `{like}`, for {kind} writes what it reads"),
+        (RoleKind::Output, Some(like)) => format!("that of `{like}`, because {kind} writes what it reads"),
         (RoleKind::Output, None) => format!("declared by {kind}"),
-        _ => "that of what flows in".to_owned(),
+        _ => "that of its input".to_owned(),
     };
     match resource {
         Some(Resource::Texture { format, .. }) => format!("{format}, {why}"),
@@ -134,7 +134,7 @@ fn resource(plan: &Plan, port: PortRef) -> Option<Resource> {
     plan.planned(port).map(|planned| *plan.resource(planned))
 }
 
-/// The slot of a port, who else is in it, and for how long the port is.
+/// The slot of a port, the others in it, and the port's lifetime.
 fn storage(plan: &Plan, planned: Handle<PlannedPort>, report: &mut Report) {
     let port = &plan.ports[planned];
     let slot = &plan.slots[port.slot];

@@ -6,7 +6,7 @@ use crate::handle::Handle;
 use crate::plan::Plan;
 use crate::plan::sizes::{Sizes, sizes};
 
-/// Longest chain that is told.
+/// Longest chain that is shown.
 const MOST_LINES: usize = 40;
 
 /// Every rule on the way from a port's size to the frame, a fixed size or a parameter.
@@ -37,7 +37,7 @@ impl Chain<'_> {
         let source = wiring.feeds[number].like().filter(|source| *source != number);
         if let (true, Some(source)) = (graph.signature(port).role.is_input(), source) {
             let source = wiring.passes.port_ref(source);
-            self.lines.push(format!("{name} is {size}, because {} is fed to it", graph.port_name(source)));
+            self.lines.push(format!("{name} is {size}, because {} is connected to it", graph.port_name(source)));
             return self.tell(source);
         }
         let descriptor = graph.port(port);

@@ -11,12 +11,12 @@ mod read;
 
 pub use read::read;
 
-/// A graph file as it stands in its text.
+/// A graph file, as read from its text.
 #[derive(Debug, Clone)]
 pub struct GraphFile {
     /// The text.
     pub source: Arc<Source>,
-    /// What the graph is for; empty where the file does not say.
+    /// What the graph is for; empty if the file does not say.
     pub about: String,
     /// Path of the scene, relative to the file.
     pub scene: Option<Spanned<String>>,
@@ -28,25 +28,25 @@ pub struct GraphFile {
     pub passes: Table<Pass, PassEntry>,
     /// Outputs, in file order.
     pub outputs: Vec<OutputEntry>,
-    /// Where the outputs stand; the whole file where they do not.
+    /// The place of the outputs; the whole file if there are none.
     pub outputs_span: Span,
-    /// Mistakes were reported while it was read, so that no graph can come of it.
+    /// Whether mistakes were reported while it was read, so that it cannot become a graph.
     pub broken: bool,
 }
 
-/// Something, and where it stands.
+/// Something, and its place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spanned<T> {
-    /// What.
+    /// The value.
     pub value: T,
-    /// Where.
+    /// Its place.
     pub span: Span,
 }
 
-/// A text of the file. Most stand there letter by letter, so only the others are stored; [`GraphFile::text`] reads both.
+/// A text of the file. Most are in the file letter by letter, so only the others are stored; [`GraphFile::text`] reads both.
 #[derive(Debug, Clone)]
 pub struct Text {
-    /// Where, quotes included.
+    /// Its place, quotes included.
     pub span: Span,
     escaped: Option<Box<str>>,
 }
@@ -56,7 +56,7 @@ impl GraphFile {
     pub fn text<'a>(&'a self, text: &'a Text) -> &'a str {
         match &text.escaped {
             Some(text) => text,
-            // As `Text::new` has seen, the quotes are a byte each.
+            // `Text::new` has checked that each quote is one byte.
             None => &self.source.text()[text.span.start as usize + 1..text.span.end as usize - 1],
         }
     }
@@ -75,7 +75,7 @@ impl Text {
 pub struct ParamEntry {
     /// Name.
     pub name: Text,
-    /// Value, or a text `$name`.
+    /// Its value, or the text `$name`.
     pub value: Node,
 }
 
@@ -84,7 +84,7 @@ pub struct ParamEntry {
 pub struct PassEntry {
     /// Name.
     pub name: Text,
-    /// What `use` says; `None` where it is missing, which has been reported.
+    /// What `use` says; `None` if it is missing, which has been reported.
     pub kind: Option<Text>,
     /// Inputs, in file order.
     pub inputs: Vec<InputEntry>,
@@ -94,12 +94,12 @@ pub struct PassEntry {
     pub enabled: Option<Spanned<Switch>>,
 }
 
-/// An input that is fed.
+/// An input that is connected.
 #[derive(Debug, Clone)]
 pub struct InputEntry {
     /// Name of the input.
     pub name: Text,
-    /// `pass.port`; `None` where something else stands there, which has been reported.
+    /// `pass.port`; `None` if it is something else, which has been reported.
     pub from: Option<Text>,
 }
 

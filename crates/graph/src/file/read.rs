@@ -14,9 +14,9 @@ pub(crate) const VERSION: i64 = 1;
 const GRAPH_FIELDS: &[&str] = &["version", "about", "scene", "size", "params", "passes", "outputs"];
 const PASS_FIELDS: &[&str] = &["use", "inputs", "params", "enabled"];
 
-/// Reads a graph file, and reports every mistake that can be seen without knowing any pass.
+/// Reads a graph file, and reports every mistake that can be found without knowing any pass.
 ///
-/// Gives `None` only where the text is too broken to say anything more about it.
+/// Returns `None` only if the text is too broken to say more about it.
 pub fn read(source: &Arc<Source>, out: &mut Diagnostics) -> Option<GraphFile> {
     let mut found = Diagnostics::default();
     let file = parse(source, &mut found).and_then(|root| graph(source, root, &mut found));
@@ -25,7 +25,7 @@ pub fn read(source: &Arc<Source>, out: &mut Diagnostics) -> Option<GraphFile> {
     file.map(|file| GraphFile { broken, ..file })
 }
 
-/// Takes the tree apart: texts move into the file, for they are most of it.
+/// Takes the tree apart: texts move into the file, because they are most of it.
 fn graph(source: &Arc<Source>, mut root: Node, out: &mut Diagnostics) -> Option<GraphFile> {
     let mut decoder = Decoder { source, out };
     let whole = root.span;
@@ -46,7 +46,7 @@ fn graph(source: &Arc<Source>, mut root: Node, out: &mut Diagnostics) -> Option<
     })
 }
 
-/// The fields of a struct; what is unknown or missing is reported.
+/// The fields of a struct; unknown and missing ones are reported.
 fn open<'n>(
     decoder: &mut Decoder<'_>,
     node: &'n mut Node,
@@ -81,7 +81,7 @@ fn size(decoder: &mut Decoder<'_>, node: &Node) -> Option<Spanned<(u32, u32)>> {
 }
 
 fn wrong_size(decoder: &mut Decoder<'_>, node: &Node) -> Option<Spanned<(u32, u32)>> {
-    let message = "a size is two whole numbers, (width, height)";
+    let message = "expected a size: two whole numbers, (width, height)";
     let place = decoder.place(node.span);
     decoder.report(Diagnostic::error(BAD_SIZE, place, message).suggest("write size: (640, 480)"));
     None
@@ -105,7 +105,7 @@ fn graph_params(decoder: &mut Decoder<'_>, node: &mut Node) -> Vec<ParamEntry> {
     params(decoder, node, check_name)
 }
 
-/// Parameters, whose names `check` looks at.
+/// Parameters, whose names `check` checks.
 fn params(decoder: &mut Decoder<'_>, node: &mut Node, check: fn(&mut Decoder<'_>, &str, Span)) -> Vec<ParamEntry> {
     let mut params = Vec::new();
     for (mut key, value) in entries(decoder, node) {
@@ -161,7 +161,7 @@ fn entries(decoder: &mut Decoder<'_>, node: &mut Node) -> Vec<(Node, Node)> {
     if let Value::Map(entries) = &mut node.value {
         return std::mem::take(entries);
     }
-    // Reports that it is none.
+    // Reports the wrong type.
     decoder.map(node);
     Vec::new()
 }
@@ -171,7 +171,7 @@ fn text(decoder: &mut Decoder<'_>, node: &mut Node) -> Option<Text> {
     named(decoder, node, any_name)
 }
 
-/// A text that is a name, which `check` looks at.
+/// A text that is a name, which `check` checks.
 fn named(decoder: &mut Decoder<'_>, node: &mut Node, check: fn(&mut Decoder<'_>, &str, Span)) -> Option<Text> {
     let text = owned_text(decoder, node)?;
     check(decoder, &text, node.span);
@@ -183,7 +183,7 @@ fn owned_text(decoder: &mut Decoder<'_>, node: &mut Node) -> Option<String> {
     if let Value::Text(text) = &mut node.value {
         return Some(std::mem::take(text));
     }
-    // Reports that it is none.
+    // Reports the wrong type.
     decoder.text(node);
     None
 }

@@ -1,4 +1,4 @@
-//! Indices that know what they are indices of, and tables that open only to their own.
+//! Typed indices, and tables that accept only their own.
 //!
 //! A pass of a graph, its position in a plan, a port and a slot are all numbers; here each has a type of its own:
 //!
@@ -17,7 +17,7 @@
 //! }
 //! ```
 //!
-//! so that one in the place of another does not compile:
+//! Using one in the place of another does not compile:
 //!
 //! ```compile_fail
 //! # use tyndall_graph::{Handle, Plan, PlannedPass, Resource};
@@ -38,8 +38,8 @@
 //! }
 //! ```
 //!
-//! A handle is good for the graph or plan that it was made by. Nothing keeps it from those of another: there it finds
-//! something else, or panics as any index beyond the end does.
+//! A handle is valid for the graph or plan that made it. Nothing prevents its use with another one: there it finds something
+//! else, or panics like any index beyond the end.
 
 mod segment;
 mod table;
@@ -65,12 +65,12 @@ impl<T> Handle<T> {
         Self { number: NonZeroU32::MIN.saturating_add(index), of: PhantomData }
     }
 
-    /// Counted from 0: for files, and for what is shown to people.
+    /// The number, counted from 0, for files and for people.
     pub fn index(self) -> usize {
         self.offset() as usize
     }
 
-    /// The one before it; `None` of the first.
+    /// The one before it; `None` for the first.
     pub fn before(self) -> Option<Self> {
         self.offset().checked_sub(1).map(Self::at)
     }

@@ -53,7 +53,7 @@ impl<K, V> fmt::Debug for Segment<K, V> {
     }
 }
 
-/// A part of a table, opened by handles of `K`.
+/// A part of a table, indexed by handles of `K`.
 pub struct Slice<'a, K, V> {
     values: &'a [V],
     of: PhantomData<fn() -> K>,

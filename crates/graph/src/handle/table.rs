@@ -1,4 +1,4 @@
-//! Vectors that only handles of one kind open.
+//! Vectors that are indexed by handles of one kind.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -6,7 +6,7 @@ use std::ops::{Index, IndexMut};
 
 use super::{Handle, Handles, Segment, Slice};
 
-/// A vector of `V` that is opened by handles of `K`: the `K` themselves, or a column beside them with something of each.
+/// A vector of `V` that is indexed by handles of `K`: the `K` themselves, or a column with a property of each.
 pub struct Table<K, V = K> {
     values: Vec<V>,
     of: PhantomData<fn() -> K>,
@@ -18,7 +18,7 @@ impl<K, V> Table<K, V> {
         Self { values: Vec::new(), of: PhantomData }
     }
 
-    /// An empty one with room for so many.
+    /// An empty one with room for this many.
     pub fn with_capacity(capacity: usize) -> Self {
         Self::from(Vec::with_capacity(capacity))
     }
@@ -35,7 +35,7 @@ impl<K, V> Table<K, V> {
         Handle::at(self.end())
     }
 
-    /// The handles of what was pushed since `first` was the next.
+    /// The handles of the values pushed since `first` was the next.
     pub fn since(&self, first: Handle<K>) -> Handles<K> {
         Handles::new(first.offset()..self.end())
     }

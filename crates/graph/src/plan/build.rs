@@ -16,7 +16,7 @@ use crate::validate::size_mistakes;
 /// Plans a graph.
 ///
 /// # Errors
-/// What depends on the size of the frame: an input that demands another size than it is fed (`wrong-size`).
+/// Mistakes that depend on the size of the frame: an input demands another size than that of its port (`wrong-size`).
 pub fn plan(graph: &Arc<Graph>, options: &PlanOptions) -> Result<Plan, Vec<Diagnostic>> {
     let wiring = &graph.wiring;
     let (sizes, problems) = sizes(graph, &wiring.feeds, options.size);

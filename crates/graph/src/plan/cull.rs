@@ -1,4 +1,4 @@
-//! Which passes run: those that something asked for depends on.
+//! Which passes run: those on which something requested depends.
 
 use crate::graph::{Graph, Pass, PortRef};
 use crate::handle::{Handle, Table};
@@ -6,7 +6,7 @@ use crate::wiring::{Feed, Wiring};
 
 use super::{CullReason, Culled, PlanOptions, Roots};
 
-/// The ports that were asked for, as the file names them.
+/// The ports that were requested, as the file names them.
 pub(super) fn roots(graph: &Graph, options: &PlanOptions) -> Vec<PortRef> {
     let outputs = graph.outputs.iter().map(|(_, port)| *port);
     let is_on = |port: &PortRef| graph.wiring.enabled[port.pass];

@@ -1,4 +1,4 @@
-//! From when to when each port is alive, and which results outlive a frame.
+//! The lifetime of each port, and which results outlive a frame.
 
 use super::{Keep, PlannedPass, PlannedPort, Until};
 use crate::descriptor::Class;
@@ -12,7 +12,7 @@ pub(super) struct Draft {
     pub ports: Table<PlannedPort, DraftPort>,
     pub planned: Table<GraphPort, Option<Handle<PlannedPort>>>,
     pub positions: Table<Pass, Option<Handle<PlannedPass>>>,
-    /// The ports that were asked for, sorted.
+    /// The ports that were requested, sorted.
     pub roots: Vec<Handle<PlannedPort>>,
 }
 
@@ -87,7 +87,7 @@ impl Draft {
         self.roots.push(planned);
     }
 
-    /// Finds the passes that change from frame to frame, and keeps what they and the outside read of the others.
+    /// Finds the passes that change from frame to frame, and keeps what they, and the caller, read of the others.
     pub fn keep(&mut self, graph: &Graph, keep: &Keep) {
         let Keep::Edges { live, animated } = keep else { return };
         let wiring = &graph.wiring;

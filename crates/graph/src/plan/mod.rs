@@ -29,16 +29,16 @@ pub struct Plan {
     pub size: (u32, u32),
     /// The passes that run, in order: their handles are positions.
     pub passes: Table<PlannedPass>,
-    /// Every port that a pass of this plan writes, pass by pass; and after them, constants that stand for an asked-for
-    /// port of a switched-off pass.
+    /// Every port that a pass of this plan writes, pass by pass; after them, constants that stand for requested ports of
+    /// disabled passes.
     pub ports: Table<PlannedPort>,
     /// The physical textures and buffers.
     pub slots: Table<Slot>,
-    /// What to do in a frame, in order.
+    /// The steps of a frame, in order.
     pub steps: Vec<Step>,
     /// The graph's outputs that are roots of this plan, by name, in file order.
     pub outputs: Vec<(String, Handle<PlannedPort>)>,
-    /// The ports that live to the end of the frame because they were asked for, sorted.
+    /// The ports that live to the end of the frame because they were requested, sorted.
     pub roots: Vec<Handle<PlannedPort>>,
     /// The passes that do not run, in file order.
     pub culled: Vec<Culled>,
@@ -49,14 +49,14 @@ pub struct Plan {
     positions: Table<Pass, Option<Handle<PlannedPass>>>,
 }
 
-/// What each port of the passes that run is bound to and fed by.
+/// What each port of the passes that run is bound to, and what feeds it.
 #[derive(Debug, Clone)]
 struct Bindings {
     slots: Table<GraphPort, Option<Handle<Slot>>>,
     sources: Table<GraphPort, Option<Handle<PlannedPort>>>,
 }
 
-/// A pass at its position; what belongs to it is read through the methods of [`Plan`].
+/// A pass at its position; its data are read through the methods of [`Plan`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PlannedPass {
     /// The pass in the graph.
@@ -71,7 +71,7 @@ pub struct PlannedPass {
 /// A version of a resource, as one pass writes it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PlannedPort {
-    /// Position of the pass that writes it. `None` of a constant that stands for a port of a switched-off pass.
+    /// Position of the pass that writes it. `None` for a constant that stands for a port of a disabled pass.
     pub pass: Option<Handle<PlannedPass>>,
     /// The port in the graph.
     pub port: PortRef,
@@ -81,14 +81,14 @@ pub struct PlannedPort {
     pub class: Class,
     /// How long it lives after it was written.
     pub until: Until,
-    /// It was asked for: an output, a tap.
+    /// Whether it was requested: an output, a tap.
     pub root: bool,
-    /// Its content outlives the frame, because passes that change from frame to frame read what this unchanging pass
-    /// writes; its slot is its own.
+    /// Whether its content outlives the frame, because passes that change from frame to frame read what this unchanging
+    /// pass writes; then it has a slot of its own.
     pub kept: bool,
-    /// A history port reads it in the next frame.
+    /// Whether a history port reads it in the next frame.
     pub carried: bool,
-    /// It shares its slot with the version before it, which the same pass reads in place.
+    /// Whether it shares its slot with the version before it, which the same pass reads in place.
     pub in_place: bool,
     next_in_slot: Option<Handle<PlannedPort>>,
 }
@@ -96,7 +96,7 @@ pub struct PlannedPort {
 /// How long a port lives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Until {
-    /// The pass at this position reads it last; where none does, it is the one that writes it.
+    /// The pass at this position reads it last; if none reads it, the one that writes it.
     Pass(Handle<PlannedPass>),
     /// To the end of the frame.
     End,
@@ -114,12 +114,12 @@ impl PlannedPort {
 pub struct Slot {
     /// What it is.
     pub resource: Resource,
-    /// How long it holds what.
+    /// How long it holds its content.
     pub kind: SlotKind,
     first_port: Option<Handle<PlannedPort>>,
 }
 
-/// How long a slot holds what.
+/// How long a slot holds its content.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SlotKind {
     /// One port after the other within a frame.
@@ -151,7 +151,7 @@ impl Slot {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Step {
     /// Copies a version that is still needed, so that the pass at this position can change the copy in place. Belongs
-    /// to the pass: where that does not run, neither does this.
+    /// to the pass: if that does not run, neither does this.
     Copy {
         /// Position of the pass that follows.
         pass: Handle<PlannedPass>,
@@ -179,16 +179,16 @@ pub enum Step {
 pub struct Culled {
     /// The pass in the graph.
     pub pass: Handle<Pass>,
-    /// Why.
+    /// The reason.
     pub reason: CullReason,
 }
 
 /// Why a pass does not run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CullReason {
-    /// It is switched off.
+    /// It is disabled.
     Off,
-    /// Nothing that was asked for depends on any of its ports, and it has no side effect.
+    /// Nothing that was requested depends on any of its ports, and it has no side effect.
     Unread,
 }
 
@@ -197,13 +197,13 @@ pub enum CullReason {
 /// `shared` and `unshared` are those of transient ports with nothing kept, whatever the options of the plan.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Bytes {
-    /// Transient slots where ports share them.
+    /// Transient slots, shared by ports.
     pub shared: u64,
     /// Transient slots if every port had its own.
     pub unshared: u64,
-    /// What this plan's slots of every kind take.
+    /// All slots of this plan, of every kind.
     pub allocated: u64,
-    /// Of these, kept across frames: kept ports and history.
+    /// The part of these that is kept across frames: kept ports and history.
     pub kept: u64,
     /// Of these, constants.
     pub constant: u64,
@@ -250,13 +250,13 @@ impl Plan {
     }
 
     /// The slot bound to each of the descriptor's ports: inputs, constants for what is absent, outputs. Every entry is
-    /// `Some`, but for an input that the pass declares and a mistake left unfed.
+    /// `Some`, except for an input that a mistake left unconnected.
     pub fn bindings(&self, position: Handle<PlannedPass>) -> Slice<'_, PortDescriptor, Option<Handle<Slot>>> {
         self.bindings.slots.slice(self.graph.wiring.passes.ports[self.passes[position].pass])
     }
 
-    /// The planned port that feeds each of the descriptor's ports. `None` of an output, of a history port, and of an
-    /// input that reads a constant slot.
+    /// The planned port that feeds each of the descriptor's ports. `None` for an output, a history port, and an input that
+    /// reads a constant slot.
     pub fn sources(&self, position: Handle<PlannedPass>) -> Slice<'_, PortDescriptor, Option<Handle<PlannedPort>>> {
         self.bindings.sources.slice(self.graph.wiring.passes.ports[self.passes[position].pass])
     }
@@ -281,27 +281,27 @@ impl Plan {
         &self.slots[self.ports[port].slot].resource
     }
 
-    /// The planned port of a port of the graph: what flows there, so the port that is passed through where the pass is
-    /// switched off. `None` where it was culled, or is a constant that nobody asked for.
+    /// The planned port of a port of the graph; if the pass is disabled, the port that is passed through. `None` if it was
+    /// culled, or is a constant that was not requested.
     pub fn planned(&self, port: PortRef) -> Option<Handle<PlannedPort>> {
         let wiring = &self.graph.wiring;
         let port = wiring.passes.port(port);
         self.planned[port].or_else(|| self.planned[wiring.out_of(port).as_port()?])
     }
 
-    /// The planned port that a name means: an output of the graph or `pass.port`. `None` where the name is unknown, or
+    /// The planned port that a name means: an output of the graph or `pass.port`. `None` if the name is unknown, or
     /// its pass was culled.
     pub fn find(&self, name: &str) -> Option<Handle<PlannedPort>> {
         let place = tyndall_document::Place::Argument(String::new());
         self.planned(self.graph.find(name, place).ok()?)
     }
 
-    /// Position of a pass of the graph; `None` where it does not run.
+    /// Position of a pass of the graph; `None` if it does not run.
     pub fn position(&self, pass: Handle<Pass>) -> Option<Handle<PlannedPass>> {
         self.positions[pass]
     }
 
-    /// The ports that a slot holds one after the other, in order; none of a constant slot that stands for no port.
+    /// The ports that a slot holds one after the other, in order; none for a constant slot that does not stand for a port.
     pub fn ports_in(&self, slot: Handle<Slot>) -> impl Iterator<Item = Handle<PlannedPort>> + '_ {
         std::iter::successors(self.slots[slot].first_port, |port| self.ports[*port].next_in_slot)
     }

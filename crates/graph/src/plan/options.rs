@@ -1,23 +1,23 @@
-//! What a plan is asked for.
+//! Options of a plan.
 
 use std::collections::BTreeSet;
 
 use crate::graph::PortRef;
 
-/// What a plan is asked for.
+/// Options of a plan.
 #[derive(Debug, Clone)]
 pub struct PlanOptions {
     /// Size of the frame in pixels, usually [`Graph::size`](crate::Graph).
     pub size: (u32, u32),
-    /// Which ports must exist at the end of the frame.
+    /// The ports that must exist at the end of the frame.
     pub roots: Roots,
-    /// Further ports that must: what a test or an editor looks at.
+    /// Further ports that must exist: those that a test or an editor looks at.
     pub taps: Vec<PortRef>,
-    /// Ports whose lifetimes do not overlap may share memory.
+    /// Whether ports whose lifetimes do not overlap may share memory.
     pub share: bool,
     /// What outlives a frame.
     pub keep: Keep,
-    /// Which of the valid orders.
+    /// Which of the valid orders to use.
     pub order: Order,
 }
 
@@ -28,14 +28,14 @@ impl PlanOptions {
     }
 }
 
-/// Which ports must exist at the end of the frame. Passes with side effects run whatever is chosen.
+/// The ports that must exist at the end of the frame. Passes with side effects run in any case.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Roots {
     /// Every output of the graph.
     Outputs,
-    /// Every port of every pass that is switched on, and every output of the graph.
+    /// Every port of every enabled pass, and every output of the graph.
     All,
-    /// These, as [`Graph::find`](crate::Graph::find) gives them.
+    /// These, as returned by [`Graph::find`](crate::Graph::find).
     Ports(Vec<PortRef>),
 }
 
@@ -44,9 +44,9 @@ pub enum Roots {
 pub enum Keep {
     /// Nothing: what is left of the frame before is not counted on.
     Nothing,
-    /// The ports on the edge between passes that stay the same and passes that change from frame to frame.
+    /// The ports between passes that stay the same and passes that change from frame to frame.
     Edges {
-        /// Parameters that will be changed while the plan stands: `pass.parameter`, or a parameter of the graph.
+        /// Parameters that will be changed while the plan is in use: `pass.parameter`, or a parameter of the graph.
         live: BTreeSet<String>,
         /// Scene data that change from frame to frame.
         animated: BTreeSet<String>,
@@ -56,8 +56,8 @@ pub enum Keep {
 /// Which of the valid orders passes run in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Order {
-    /// That of the file; a pass that stands before one that it reads waits for it.
+    /// That of the file; a pass that comes before one that it reads waits for it.
     File,
-    /// Another one, drawn by this seed.
+    /// Another one, chosen by this seed.
     Shuffled(u64),
 }

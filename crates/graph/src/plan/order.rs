@@ -13,7 +13,7 @@ pub(super) fn order(wiring: &Wiring, needed: &Table<Pass, bool>, order: Order) -
     }
 }
 
-/// Draws one of the passes that are ready, again and again.
+/// Repeatedly chooses one of the passes that are ready.
 fn shuffled(wiring: &Wiring, needed: &Table<Pass, bool>, seed: u64) -> Vec<Handle<Pass>> {
     let mut waits_for = needed.column(0u32);
     let mut readers: Table<Pass, Vec<Handle<Pass>>> = needed.column(Vec::new());
@@ -41,7 +41,7 @@ fn shuffled(wiring: &Wiring, needed: &Table<Pass, bool>, seed: u64) -> Vec<Handl
     order
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014): enough to draw an order.
+/// SplitMix64 (Steele, Lea, Flood 2014): good enough to choose an order.
 struct Random(u64);
 
 impl Random {

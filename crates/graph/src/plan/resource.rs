@@ -20,7 +20,7 @@ pub enum Resource {
         /// Texels in z, or layers.
         depth_or_layers: u32,
     },
-    /// A buffer; also what holds a value.
+    /// A buffer, or a single value.
     Buffer {
         /// Bytes in all.
         bytes: u64,
@@ -38,7 +38,7 @@ impl Resource {
         }
     }
 
-    /// Bytes that it takes, without what a driver adds; saturates.
+    /// Its size in bytes, without what a driver adds; saturates.
     pub fn bytes(&self) -> u64 {
         match *self {
             Resource::Texture { format, width, height, depth_or_layers, .. } => {

@@ -5,7 +5,7 @@ use crate::handle::{Handle, Table};
 use crate::signature::{Amount, PortSignature, RoleKind, Rule};
 use crate::wiring::{Feeds, GraphPort};
 
-/// Width, height, depth or layers. All 0: a mistake hides it.
+/// Width, height, depth or layers. All 0 if a mistake hides it.
 pub(crate) type Size = [u32; 3];
 
 /// The size of every port.
@@ -16,15 +16,15 @@ const UNKNOWN: Size = [0; 3];
 /// What is wrong with a size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SizeProblem {
-    /// An input demands another size than it is fed.
+    /// An input demands another size than that of the port connected to it.
     Differs { port: PortRef, fed: Size, demanded: Size },
-    /// A parameter that sets a size is below 1 or beyond 32 bits.
+    /// A parameter that sets a size is below 1 or exceeds 32 bits.
     Param { param: ParamRef, value: i64 },
-    /// A file parameter that sets a size names no picture whose size is known.
+    /// A file parameter that sets a size does not name a picture of known size.
     Picture { param: ParamRef },
 }
 
-/// The size of every port, and what is wrong with them.
+/// The size of every port, and problems with sizes.
 ///
 /// `feeds` is that of the graph, or of the graph as written with every pass switched on.
 pub(crate) fn sizes(graph: &Graph, feeds: &Feeds, frame: (u32, u32)) -> (Sizes, Vec<SizeProblem>) {
@@ -145,7 +145,7 @@ impl Resolver<'_> {
     }
 }
 
-/// The extents that mean something, and 1 in place of the others.
+/// The extents that apply, and 1 in place of the others.
 fn cut(size: Size, axes: usize) -> Size {
     if size == UNKNOWN {
         return UNKNOWN;
@@ -159,7 +159,7 @@ fn cut(size: Size, axes: usize) -> Size {
     }
 }
 
-/// Rounded up, at least 1, at most what 32 bits hold.
+/// Rounded up, at least 1, and at most the largest number of 32 bits.
 fn scaled(extent: u32, scale: f64) -> u32 {
     if scale == 1.0 { extent } else { ((f64::from(extent) * scale).ceil() as u32).max(1) }
 }

@@ -10,9 +10,9 @@ use crate::plan::{Plan, PlannedPass, PlannedPort, Slot, SlotKind, Until};
 
 const ROW: f64 = 26.0;
 const LEFT: f64 = 26.0;
-/// Widest that all positions together become.
+/// Greatest total width of all positions.
 const WIDEST: f64 = 4000.0;
-/// Narrowest that a position is with its pass's name.
+/// Smallest width of a position with its pass's name.
 const NARROWEST: f64 = 12.0;
 
 /// The chart, and where it ends.

@@ -6,7 +6,7 @@ use super::names::culled_words;
 use crate::handle::Handle;
 use crate::plan::{CullReason, Plan, PlannedPass, PlannedPort, Resource, Slot, SlotKind, Step, Until};
 
-/// A plan as JSON: everything that the text says, with indices as the plan has them.
+/// A plan as JSON: everything in the text, with the plan's indices.
 pub fn json(plan: &Plan) -> String {
     let value = json!({
         "size": [plan.size.0, plan.size.1],

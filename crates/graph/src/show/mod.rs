@@ -1,4 +1,4 @@
-//! A plan for people: as text, as a drawing, as a graph for other programs, as data.
+//! Views of a plan: text, drawing, graph for other programs, data.
 
 mod chart;
 mod dot;

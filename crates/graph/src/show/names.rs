@@ -18,7 +18,7 @@ pub fn byte_words(bytes: u64) -> String {
     format!("{value:.1} {}", units[unit])
 }
 
-/// Why a pass does not run, in a sentence without its name.
+/// Why a pass does not run: a sentence without its name.
 pub fn culled_words(plan: &Plan, culled: &Culled) -> String {
     let pass = plan.graph.pass(culled.pass);
     match (culled.reason, &pass.switch) {

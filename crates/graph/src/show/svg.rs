@@ -1,5 +1,5 @@
-//! A plan as a drawing: passes as boxes in columns by depth, connections in the colour of the slot that carries them,
-//! what does not run in grey; below, who is in which slot when.
+//! A plan as a drawing: passes as boxes in columns by depth, connections in the colour of their slot, passes that do not run
+//! in grey; below, which port is in which slot and when.
 
 use std::fmt::Write;
 
@@ -54,7 +54,7 @@ pub(super) fn slot_colours(plan: &Plan) -> Colours {
             return "#64748b".to_owned();
         }
         shared += 1;
-        // Steps of the golden angle keep neighbours apart.
+        // Steps of the golden angle keep neighbouring colours distinct.
         let hue = (205.0 + 137.508 * f64::from(shared - 1)) % 360.0;
         format!("hsl({hue:.0}, 62%, 43%)")
     };
@@ -72,7 +72,7 @@ fn draw_line(text: &mut String, plan: &Plan, line: &Line, layout: &Layout, colou
         End::Port(to) => plan.position(to.pass).is_some(),
         End::Output(_) => true,
     };
-    // What flows where a pass is off has the colour of the slot that it comes from.
+    // What flows through a disabled pass has the colour of the slot that it comes from.
     let slot = plan.planned(line.from).filter(|_| runs).map(|planned| plan.ports[planned].slot);
     let colour = slot.map_or(GREY, |slot| &colours[slot]);
     let to = match line.to {
@@ -228,7 +228,7 @@ fn draw_tag(text: &mut String, plan: &Plan, output: usize, place: Rectangle) {
     );
 }
 
-/// Text as XML holds it; control characters, which it cannot hold, are left out.
+/// Text escaped for XML; control characters, which XML cannot hold, are left out.
 pub(super) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {

@@ -5,7 +5,7 @@ use tyndall_document::is_name;
 use super::DescriptorError;
 use crate::descriptor::{PRESET, ParamDescriptor, ParamType, PassDescriptor};
 
-/// Every name is one, and none stands twice.
+/// Checks that every name is valid and that none appears twice.
 pub(super) fn check_names(descriptor: &PassDescriptor, errors: &mut Vec<DescriptorError>) {
     let bad = !descriptor.name.split('.').all(is_name);
     errors.extend(bad.then(|| DescriptorError::BadName(descriptor.name.clone())));
@@ -17,7 +17,7 @@ pub(super) fn check_names(descriptor: &PassDescriptor, errors: &mut Vec<Descript
     for (index, preset) in descriptor.presets.iter().enumerate() {
         errors.extend((!is_name(&preset.name)).then(|| DescriptorError::BadName(preset.name.clone())));
         let twice = descriptor.presets[..index].iter().any(|other| other.name == preset.name);
-        let why = || "stands twice".to_owned();
+        let why = || "appears twice".to_owned();
         errors.extend(twice.then(|| DescriptorError::BadPreset { preset: preset.name.clone(), why: why() }));
     }
     for (index, param) in descriptor.params.entries() {

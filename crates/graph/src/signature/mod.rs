@@ -30,15 +30,15 @@ pub(crate) struct PortSignature {
     pub rule: Option<Rule>,
     /// Of an output of any class: the input whose class (and format) it has.
     pub like: Option<Handle<PortDescriptor>>,
-    /// Of an output: the input that flows on where the pass is switched off; `None`: a constant.
+    /// Of an output: the input that is passed on while the pass is disabled; `None` for a constant.
     pub through: Option<Handle<PortDescriptor>>,
     /// The value of a constant in the place of the port.
     pub constant: [f32; 4],
-    /// How many extents mean something.
+    /// How many extents apply.
     pub axes: usize,
 }
 
-/// [`Role`] without what belongs to it.
+/// [`Role`] without its data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum RoleKind {
     Input,
@@ -57,7 +57,7 @@ impl RoleKind {
         matches!(self, RoleKind::Output | RoleKind::InOut)
     }
 
-    /// What feeds it flows in the same frame.
+    /// Whether it is fed in the same frame.
     pub fn reads_this_frame(self) -> bool {
         matches!(self, RoleKind::Input | RoleKind::Optional | RoleKind::InOut)
     }
@@ -74,10 +74,10 @@ pub(crate) enum Amount {
     FramePixels(f64),
 }
 
-/// [`SizeRule`](crate::descriptor::SizeRule) with handles; the two that nearly all ports have are apart.
+/// [`SizeRule`](crate::descriptor::SizeRule) with handles; the two most common rules have variants of their own.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Rule {
-    /// The frame's size. Also that of a port that states none.
+    /// The frame's size, also for a port that states none.
     Frame,
     /// The size of another port.
     Same(Handle<PortDescriptor>),
@@ -117,7 +117,7 @@ impl Signature {
     }
 }
 
-/// Each error where it stands first: a rule with three extents can be wrong three times.
+/// The first of equal errors: a rule with three extents can be wrong three times.
 fn once(errors: Vec<DescriptorError>) -> Vec<DescriptorError> {
     let mut once: Vec<DescriptorError> = Vec::new();
     for error in errors {

@@ -7,7 +7,7 @@ use crate::descriptor::{
 };
 use crate::handle::Handle;
 
-/// A port with its names resolved; what they get wrong is added to `errors`.
+/// A port with its names resolved; mistakes are added to `errors`.
 pub(super) fn resolve(
     descriptor: &PassDescriptor,
     port: &PortDescriptor,
@@ -133,7 +133,7 @@ fn like(
     found
 }
 
-/// The input that flows on where the pass is switched off.
+/// The input that is passed on while the pass is disabled.
 fn through(
     descriptor: &PassDescriptor,
     port: &PortDescriptor,

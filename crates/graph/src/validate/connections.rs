@@ -12,16 +12,16 @@ use crate::handle::{Handle, Table};
 use crate::signature::RoleKind;
 use crate::wiring::{Feed, Feeds, GraphPort};
 
-/// What feeds the ports of a graph as it is written, as if every pass were switched on.
+/// What feeds the ports of a graph as it is written, as if every pass were enabled.
 pub(super) struct Connections {
     pub list: Table<Connection>,
     pub to: Table<GraphPort, Option<Handle<Connection>>>,
     pub written: Feeds,
-    /// The history ports that are fed.
+    /// The history ports that are connected.
     pub history: Vec<Handle<GraphPort>>,
 }
 
-/// Connects what the file feeds to passes, and reports what it leaves out.
+/// Makes the connections of the file, and reports missing ones.
 pub(super) fn connect(scope: &Scope<'_>, out: &mut Mistakes) -> Connections {
     let ports = &scope.passes.pass_of;
     let mut connections = Connections {
@@ -80,7 +80,7 @@ impl Connections {
     }
 }
 
-/// The port that an entry of a pass's inputs names. Nothing is said of a pass whose kind is not known.
+/// The port that an entry of a pass's inputs names. Nothing is reported of a pass whose kind is unknown.
 fn input_port(scope: &Scope<'_>, pass: Handle<Pass>, input: &InputEntry, out: &mut Mistakes) -> Option<PortRef> {
     let descriptor = &scope.passes.kind(pass).descriptor;
     let name = scope.file.text(&input.name);
@@ -89,7 +89,7 @@ fn input_port(scope: &Scope<'_>, pass: Handle<Pass>, input: &InputEntry, out: &m
         Some(_) => out.report(not_an_input(scope, descriptor, &input.name)),
         None if !scope.is_known(pass) => {}
         None => {
-            let message = format!("`{}` has no input named `{name}`", descriptor.name);
+            let message = format!("`{}` has no input `{name}`", descriptor.name);
             let inputs = descriptor.inputs().map(|port| port.name.as_str());
             let code = (codes::UNKNOWN_PORT, scope.place(input.name.span));
             out.report_unknown(code, message, name, inputs, str::to_owned);
@@ -99,13 +99,10 @@ fn input_port(scope: &Scope<'_>, pass: Handle<Pass>, input: &InputEntry, out: &m
 }
 
 fn not_an_input(scope: &Scope<'_>, descriptor: &PassDescriptor, name: &Text) -> Diagnostic {
-    let message = format!("`{}` is an output of `{}`, and cannot be fed", scope.file.text(name), descriptor.name);
-    let inputs: Vec<String> = descriptor.inputs().map(|port| format!("`{}`", port.name)).collect();
-    let suggestion = match inputs.is_empty() {
-        true => "the pass has no inputs".to_owned(),
-        false => format!("its inputs are {}", inputs.join(", ")),
-    };
-    Diagnostic::error(codes::NOT_AN_INPUT, scope.place(name.span), message).suggest(suggestion)
+    let port = scope.file.text(name);
+    let message = format!("`{port}` is an output of `{}`, so nothing can be connected to it", descriptor.name);
+    let inputs = descriptor.inputs().map(|port| port.name.as_str());
+    Diagnostic::error(codes::NOT_AN_INPUT, scope.place(name.span), message).suggest_available(inputs)
 }
 
 fn missing_input(scope: &Scope<'_>, pass: Handle<Pass>, entry: &PassEntry, port: &PortDescriptor) -> Diagnostic {
@@ -113,7 +110,7 @@ fn missing_input(scope: &Scope<'_>, pass: Handle<Pass>, entry: &PassEntry, port:
     let message = format!("`{}` needs the input `{}` of `{kind}`", scope.file.text(&entry.name), port.name);
     let suggestion = match &port.role {
         Role::History(_) => {
-            format!("feed it with what it should hold of the frame before: \"{}\": \"pass.port\"", port.name)
+            format!("connect what it should hold of the frame before: \"{}\": \"pass.port\"", port.name)
         }
         _ => format!("add \"{}\": \"pass.port\" to its inputs", port.name),
     };
@@ -127,7 +124,7 @@ fn written(scope: &Scope<'_>, from: &Text, out: &mut Mistakes) -> Option<PortRef
         return None;
     };
     let Some(pass) = scope.pass_named(pass_name) else {
-        let message = format!("there is no pass named `{pass_name}`");
+        let message = format!("there is no pass `{pass_name}`");
         let code = (codes::UNKNOWN_REFERENCE, scope.place(from.span));
         out.report_unknown(code, message, pass_name, scope.pass_names(), |near| format!("{near}.{port_name}"));
         return None;
@@ -138,7 +135,7 @@ fn written(scope: &Scope<'_>, from: &Text, out: &mut Mistakes) -> Option<PortRef
         Some(_) => out.report(not_an_output(scope, pass, from, port_name)),
         None if !scope.is_known(pass) => {}
         None => {
-            let message = format!("`{}` has no output named `{port_name}`", descriptor.name);
+            let message = format!("`{}` has no output `{port_name}`", descriptor.name);
             let outputs = descriptor.outputs().map(|port| port.name.as_str());
             let code = (codes::UNKNOWN_PORT, scope.place(from.span));
             out.report_unknown(code, message, port_name, outputs, |near| format!("{pass_name}.{near}"));
@@ -154,16 +151,15 @@ fn bad_reference(scope: &Scope<'_>, from: &Text) -> Diagnostic {
         Some(port) => format!("write pass.port: `{name}.{}`", port.name),
         None => "write pass.port".to_owned(),
     };
-    let message = format!("`{name}` names no port");
+    let message = format!("`{name}` is not of the form pass.port");
     Diagnostic::error(codes::BAD_REFERENCE, scope.place(from.span), message).suggest(suggestion)
 }
 
 fn not_an_output(scope: &Scope<'_>, pass: Handle<Pass>, from: &Text, port: &str) -> Diagnostic {
     let descriptor = &scope.passes.kind(pass).descriptor;
     let name = scope.name(pass);
-    let message = format!("`{port}` is an input of `{}`, and nothing can be read from it", descriptor.name);
-    let outputs: Vec<String> = descriptor.outputs().map(|port| format!("`{name}.{}`", port.name)).collect();
+    let message = format!("`{port}` is an input of `{}`, so it cannot be read", descriptor.name);
     Diagnostic::error(codes::NOT_AN_OUTPUT, scope.place(from.span), message)
-        .suggest(format!("what it writes is {}", outputs.join(", ")))
-        .relate(scope.place_of(pass), format!("`{name}` stands here"))
+        .suggest_available(descriptor.outputs().map(|port| format!("{name}.{}", port.name)))
+        .relate(scope.place_of(pass), format!("`{name}` is here"))
 }

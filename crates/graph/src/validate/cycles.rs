@@ -1,4 +1,4 @@
-//! An order in which every pass stands behind those that it reads, and the loops that make one impossible.
+//! An order in which every pass comes after those that it reads, and the loops that make one impossible.
 
 use std::collections::VecDeque;
 use std::collections::hash_map::Entry;
@@ -16,7 +16,7 @@ use crate::graph::{Connection, Pass};
 use crate::handle::{Handle, Table};
 use crate::wiring::{Feeds, Passes};
 
-/// Orders the passes as the file does, but for those that must wait; reports loops.
+/// Orders the passes as the file does, except for those that must wait; reports loops.
 pub(super) fn order(scope: &Scope<'_>, connections: &Connections, out: &mut Mistakes) -> Vec<Handle<Pass>> {
     let (order, has_loops) = depth_first(&scope.passes, &connections.written);
     if has_loops {
@@ -37,7 +37,7 @@ enum State {
     Done,
 }
 
-/// Each pass behind those that it reads, and whether there is a pass that waits for itself.
+/// Each pass after those that it reads, and whether there is a pass that waits for itself.
 fn depth_first(passes: &Passes, feeds: &Feeds) -> (Vec<Handle<Pass>>, bool) {
     let mut order = Vec::with_capacity(passes.kind_of.len());
     let mut state = passes.kind_of.column(State::Unseen);
@@ -124,7 +124,7 @@ fn walk_back<'c>(
     way
 }
 
-/// A loop in words, from its connection that stands first in the file on.
+/// A loop in words, starting at the connection that comes first in the file.
 fn in_words(scope: &Scope<'_>, way: &[&Connection]) -> Option<Diagnostic> {
     let (at, first) = way.iter().enumerate().min_by_key(|(_, connection)| connection.span.start)?;
     let (before, behind) = way.split_at(at);

@@ -1,4 +1,4 @@
-//! What the file and the command line give for parameters of passes.
+//! Values of parameters of passes from the file and the command line.
 
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ impl<'a> Given<'a> {
         }
     }
 
-    /// The name behind the `$`.
+    /// The name after the `$`.
     pub fn reference(self) -> Option<&'a str> {
         match &self.node.value {
             Value::Text(text) => text.strip_prefix('$'),
@@ -49,7 +49,7 @@ impl<'a> Given<'a> {
     }
 }
 
-/// What the command line says of parameters of passes; the last of a name wins.
+/// Values of parameters of passes from the command line; the last one for a name wins.
 pub(super) fn overrides<'a>(scope: &Scope<'a>, out: &mut Mistakes) -> FxHashMap<ParamRef, &'a Override> {
     let mut found = FxHashMap::default();
     for given in &scope.request.overrides.params {
@@ -71,7 +71,7 @@ fn overridden(
 ) -> Option<ParamRef> {
     let place = Place::Argument(argument.to_owned());
     let Some(pass) = scope.pass_named(pass_name) else {
-        let message = format!("there is no pass named `{pass_name}`");
+        let message = format!("there is no pass `{pass_name}`");
         let code = (codes::UNKNOWN_REFERENCE, place);
         out.report_unknown(code, message, pass_name, scope.pass_names(), |near| format!("{near}.{param_name}"));
         return None;
@@ -91,7 +91,7 @@ pub(super) fn unknown_param(
     suggestion: impl Fn(&str) -> String,
     out: &mut Mistakes,
 ) {
-    let message = format!("`{}` has no parameter named `{name}`", descriptor.name);
+    let message = format!("`{}` has no parameter `{name}`", descriptor.name);
     let names = descriptor.params.iter().map(|param| param.name.as_str());
     out.report_unknown((codes::UNKNOWN_PARAMETER, place), message, name, names, suggestion);
 }

@@ -2,10 +2,10 @@
 
 use tyndall_document::{Code, Diagnostic, Diagnostics, Place, did_you_mean, near};
 
-/// Names for which a near one is sought in one file: the search is not cheap, and nobody reads more.
+/// Most unknown names of one file for which a near one is sought: the search is not cheap, and nobody reads more.
 const MOST_SUGGESTIONS: u32 = 100;
 
-/// What the steps have found so far.
+/// The mistakes found so far.
 pub(super) struct Mistakes {
     found: Diagnostics,
     suggestions: u32,

@@ -1,8 +1,8 @@
 //! From a file's tree to a typed graph, with every mistake on the way.
 //!
-//! Validation is a row of steps, and each takes what those before it have found. A step goes on after a mistake as far
-//! as it can without reporting the same mistake a second time: what a mistake hides has an unknown type and an unknown
-//! size, and nothing is demanded of those.
+//! Validation is a sequence of steps, each of which uses the results of those before it. A step goes on after a mistake as
+//! far as it can without reporting the same mistake twice: what a mistake hides has an unknown type and an unknown size,
+//! which satisfy every demand.
 
 mod connections;
 mod cycles;
@@ -33,10 +33,10 @@ pub(crate) use sizes::size_mistakes;
 use mistakes::Mistakes;
 use scope::Scope;
 
-/// Checks a file against the passes that there are, and gives its graph where it has no mistake.
+/// Checks a file against the available passes, and returns its graph if it has no mistakes.
 ///
-/// Reports every mistake, in the order of the file; those of the command line last. Looks on the disk for the files
-/// that are named.
+/// Reports every mistake, in the order of the file, those of the command line last. Checks on disk whether the files that
+/// it names exist.
 pub fn validate(
     file: &GraphFile,
     catalogue: &Catalogue,
@@ -46,7 +46,7 @@ pub fn validate(
     validate_with(file, catalogue, overrides, &Path::exists, out)
 }
 
-/// The same, with something else than the disk that says which files exist.
+/// The same, with a function that says which files exist.
 pub fn validate_with(
     file: &GraphFile,
     catalogue: &Catalogue,
@@ -66,7 +66,7 @@ pub fn validate_with(
     sound.then(|| Arc::new(graph))
 }
 
-/// What is validated, and against what.
+/// What is validated, and against which passes.
 struct Request<'a> {
     file: &'a GraphFile,
     catalogue: &'a Catalogue,
@@ -74,7 +74,7 @@ struct Request<'a> {
     exists: &'a dyn Fn(&Path) -> bool,
 }
 
-/// The graph of a file, complete only where nothing was reported.
+/// The graph of a file, complete only if nothing was reported.
 fn graph(request: &Request<'_>, out: &mut Mistakes) -> Graph {
     let scope = Scope::of(request, out);
     let params = params::read(&scope, out);

@@ -1,4 +1,4 @@
-//! What the file says that the command line may say instead: the scene and the size of the frame.
+//! What either the file or the command line gives: the scene and the size of the frame.
 
 use tyndall_document::{BAD_SIZE, Diagnostic, Place};
 

@@ -1,4 +1,4 @@
-//! Parameters of the graph, with what the command line puts in their place.
+//! Parameters of the graph, with the values from the command line.
 
 use rustc_hash::FxHashMap;
 use tyndall_document::{Decoder, Diagnostic, Diagnostics, Place, Span};
@@ -22,11 +22,11 @@ pub(super) struct GraphValue {
     pub name: String,
     /// Where the file defines it.
     pub definition: Span,
-    /// `None`: a mistake hides it.
+    /// `None` if a mistake hides it.
     pub value: Option<ParamValue>,
-    /// Where the value stands.
+    /// The place of the value.
     pub place: Place,
-    /// The value came from the command line.
+    /// Whether the value came from the command line.
     pub overridden: bool,
 }
 
@@ -55,7 +55,7 @@ impl Params<'_> {
     fn set(&mut self, scope: &Scope<'_>, given: &Override, out: &mut Mistakes) {
         let place = Place::Argument(given.argument.clone());
         let Some(param) = self.by_name.get(given.name.as_str()).copied() else {
-            let message = format!("the graph has no parameter named `{}`", given.name);
+            let message = format!("the graph has no parameter `{}`", given.name);
             let code = (codes::UNKNOWN_PARAMETER, place);
             out.report_unknown(code, message, &given.name, names(scope), str::to_owned);
             return;
@@ -67,7 +67,7 @@ impl Params<'_> {
         if let (Some(declared), Some(value)) = (&param.value, &value)
             && declared.words() != value.words()
         {
-            let message = format!("`{}` is {}, and {value} is {}", param.name, declared.words(), value.words());
+            let message = format!("`{}` is {}, but {value} is {}", param.name, declared.words(), value.words());
             let diagnostic = Diagnostic::error(tyndall_document::WRONG_TYPE, place, message);
             out.report(diagnostic.relate(scope.place(param.definition), "it takes its type from here"));
             return;
@@ -85,7 +85,7 @@ impl Params<'_> {
     /// The parameter that `$name` means.
     ///
     /// # Errors
-    /// The one that was probably meant, after it was reported that there is none of this name.
+    /// The one that was probably meant, after the unknown name has been reported.
     pub fn resolve(
         &self,
         scope: &Scope<'_>,
@@ -94,7 +94,7 @@ impl Params<'_> {
         out: &mut Mistakes,
     ) -> Result<Handle<GraphValue>, Option<Handle<GraphValue>>> {
         self.find(name).ok_or_else(|| {
-            let message = format!("the graph has no parameter named `{name}`");
+            let message = format!("the graph has no parameter `{name}`");
             let code = (codes::UNKNOWN_NAME, place.clone());
             let names = names(scope).chain(["frame", "time"]);
             let near = out.report_unknown(code, message, name, names, |near| format!("${near}"));
@@ -102,7 +102,7 @@ impl Params<'_> {
         })
     }
 
-    /// Reports the parameters that set or switch nothing, not even by mistake.
+    /// Reports the parameters that are not used, not even by mistake.
     pub fn check_used<'u>(
         &self,
         scope: &Scope<'_>,

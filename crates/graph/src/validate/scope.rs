@@ -1,4 +1,4 @@
-//! What names of passes and of their kinds mean.
+//! Passes by name, and their kinds.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -46,7 +46,7 @@ impl<'a> Scope<'a> {
         scope
     }
 
-    /// The kind that `use` names; one of its own, without ports, where there is none of this name.
+    /// The kind that `use` names; if there is none of this name, a kind without ports.
     fn kind(
         &mut self,
         name: Option<&'a Text>,
@@ -84,7 +84,7 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// Whether the kind of a pass is of the catalogue: nothing is demanded of one whose kind is not known.
+    /// Whether the kind of a pass is in the catalogue: nothing is demanded of a pass whose kind is unknown.
     pub fn is_known(&self, pass: Handle<Pass>) -> bool {
         !self.passes.kind(pass).descriptor.name.is_empty()
     }
@@ -93,7 +93,7 @@ impl<'a> Scope<'a> {
         self.file.text(&self.file.passes[pass].name)
     }
 
-    /// Where the name of a pass stands.
+    /// The place of the name of a pass.
     pub fn place_of(&self, pass: Handle<Pass>) -> Place {
         self.place(self.file.passes[pass].name.span)
     }
@@ -111,7 +111,7 @@ impl<'a> Scope<'a> {
         self.file.source.place(span)
     }
 
-    /// A path that stands in the file, relative to the working directory.
+    /// A path from the file, made relative to the working directory.
     pub fn beside_file(&self, path: &str) -> String {
         let folder = Path::new(self.file.source.name()).parent().unwrap_or(Path::new(""));
         folder.join(path).to_string_lossy().into_owned()

@@ -22,7 +22,7 @@ pub(super) struct Settings {
     pub of_passes: OfPasses,
     /// Which parameters of passes are set to a parameter of the graph.
     pub uses: Vec<(Handle<GraphValue>, ParamRef)>,
-    /// The parameters of the graph that are named, also where that is a mistake.
+    /// The parameters of the graph that are used, even where that is a mistake.
     pub used: Vec<Handle<GraphValue>>,
     /// The parameters that set sizes, where they are set.
     pub size_params: FxHashMap<ParamRef, SizeParam>,
@@ -31,8 +31,8 @@ pub(super) struct Settings {
 pub(super) type OfPasses = Table<Pass, OfPass>;
 type OfPass = Table<ParamDescriptor, ParamSetting>;
 
-/// Sets every parameter of every pass: to its default or what a preset puts in its place, to what the file says, to what
-/// the command line says.
+/// Sets every parameter of every pass: to its default or a preset's value, then as the file says, then as the command line
+/// says.
 pub(super) fn read(scope: &Scope<'_>, params: &Params<'_>, out: &mut Mistakes) -> Settings {
     let overrides = overrides(scope, out);
     let mut reader = Reader { scope, params, overrides, settings: Settings::default(), out };
@@ -108,7 +108,7 @@ impl<'a> Reader<'_, 'a> {
         Some(ParamSetting::Value(value))
     }
 
-    /// What `$name` sets a parameter to. `place` is where it stands.
+    /// What `$name`, at `place`, sets a parameter to.
     fn referred(
         &mut self,
         name: &str,
@@ -146,7 +146,7 @@ impl<'a> Reader<'_, 'a> {
             "time" if fits(ParamValue::Float(0.0)) => Some(ParamSetting::Time),
             _ => {
                 let what = if name == "time" { "a number of seconds" } else { "a whole number" };
-                let message = format!("`{}` is {}, and ${name} is {what}", descriptor.name, descriptor.accepts.words());
+                let message = format!("`{}` is {}, but ${name} is {what}", descriptor.name, descriptor.accepts.words());
                 self.out.report(Diagnostic::error(codes::WRONG_REFERENCE_TYPE, place, message));
                 None
             }
@@ -154,7 +154,7 @@ impl<'a> Reader<'_, 'a> {
     }
 
     fn report_other_type(&mut self, source: &GraphValue, descriptor: &ParamDescriptor, place: Place) {
-        let message = format!("`{}` is {}, and ${} is not", descriptor.name, descriptor.accepts.words(), source.name);
+        let message = format!("`{}` is {}, but ${} is not", descriptor.name, descriptor.accepts.words(), source.name);
         let (at, related, what) = match source.overridden {
             true => (source.place.clone(), place, "used here"),
             false => (place, self.scope.place(source.definition), "defined here"),
@@ -162,8 +162,7 @@ impl<'a> Reader<'_, 'a> {
         self.out.report(Diagnostic::error(codes::WRONG_REFERENCE_TYPE, at, message).relate(related, what));
     }
 
-    /// Makes a path relative to the working directory, if it is beside the graph's file, and looks whether the file is
-    /// there.
+    /// Makes a path from the graph's file relative to the working directory, and checks that the file exists.
     fn find_file(&mut self, value: &mut ParamValue, is_beside_file: bool, place: Place) {
         let ParamValue::File(path) = value else { return };
         if is_beside_file {
@@ -180,12 +179,12 @@ impl<'a> Reader<'_, 'a> {
         match setting {
             ParamSetting::Value(ParamValue::File(path)) => {
                 let size = self.scope.request.catalogue.picture_size.and_then(|size| size(Path::new(path)));
-                // A file that is not there has been reported already.
+                // A missing file has been reported already.
                 picture = size.or_else(|| (!self.scope.exists(path)).then_some((1, 1)));
             }
             ParamSetting::Value(_) => {}
             ParamSetting::Frame | ParamSetting::Time => {
-                let message = format!("`{name}` sets the size of a port, and cannot change from frame to frame");
+                let message = format!("`{name}` sets the size of a port, so it cannot change from frame to frame");
                 self.out.report(Diagnostic::error(codes::LIVE_SIZE, place.clone(), message));
             }
         }
@@ -193,7 +192,7 @@ impl<'a> Reader<'_, 'a> {
     }
 }
 
-/// Puts the values of the chosen preset in the place of the defaults of all parameters that are not given.
+/// Replaces the defaults of all parameters that are not set by the values of the chosen preset.
 fn use_preset(descriptor: &PassDescriptor, found: &mut Found) {
     let chosen = descriptor.param_named(PRESET).and_then(|param| match &found.settings[param] {
         ParamSetting::Value(ParamValue::Choice(word)) => descriptor.presets.iter().find(|preset| preset.name == *word),

@@ -1,4 +1,4 @@
-//! Sizes that do not agree, in words.
+//! Messages about sizes that do not agree.
 
 use tyndall_document::{BAD_SIZE, Diagnostic, Place};
 
@@ -26,7 +26,7 @@ fn same_port(problems: &[SizeProblem], problem: &SizeProblem) -> bool {
     problems.iter().any(|other| matches!(other, SizeProblem::Differs { port: other, .. } if other == port))
 }
 
-/// Wrong sizes in words, at the connection or the parameter.
+/// Messages about wrong sizes, at the connection or the parameter.
 pub(crate) fn size_mistakes(graph: &Graph, problems: &[SizeProblem]) -> Vec<Diagnostic> {
     problems.iter().filter_map(|problem| mistake(graph, problem)).collect()
 }
@@ -44,9 +44,9 @@ fn mistake(graph: &Graph, problem: &SizeProblem) -> Option<Diagnostic> {
             let name = &of_pass.descriptor().params[param.param].name;
             let message = match &of_pass.params[param.param] {
                 ParamSetting::Value(ParamValue::File(path)) if !path.is_empty() => {
-                    format!("`{name}` names {path}, which is no picture that can be read")
+                    format!("`{name}` names {path}, which is not a readable picture")
                 }
-                _ => format!("`{name}` of pass `{}` names no picture", of_pass.name),
+                _ => format!("`{name}` of pass `{}` does not name a picture", of_pass.name),
             };
             let diagnostic = Diagnostic::error(codes::BAD_PICTURE, place_of(graph, param), message);
             Some(diagnostic.suggest("give the path of an EXR, HDR, PNG or NPY file"))
@@ -54,7 +54,7 @@ fn mistake(graph: &Graph, problem: &SizeProblem) -> Option<Diagnostic> {
     }
 }
 
-/// Where a parameter is set that sets a size; of one that is not, its pass.
+/// Where a parameter that sets a size is set; if it is not set, its pass.
 fn place_of(graph: &Graph, param: ParamRef) -> Place {
     let place = graph.size_params.get(&param).map(|param| param.place.clone());
     place.unwrap_or_else(|| graph.place(graph.pass(param.pass).span))
@@ -67,9 +67,9 @@ fn differs(graph: &Graph, port: PortRef, fed: Size, demanded: Size) -> Option<Di
     let rule = port.size.as_ref().map(ToString::to_string).unwrap_or_default();
     let (demanded, fed) = (size_words(&demanded[..axes]), size_words(&fed[..axes]));
     let message = if rule.starts_with(|first: char| first.is_ascii_digit()) {
-        format!("`{}` must be {demanded}, and this is {fed}", port.name)
+        format!("`{}` must be {demanded}, but this is {fed}", port.name)
     } else {
-        format!("`{}` must be {demanded} ({rule}), and this is {fed}", port.name)
+        format!("`{}` must be {demanded} ({rule}), but this is {fed}", port.name)
     };
     let diagnostic = Diagnostic::error(codes::WRONG_SIZE, graph.place(connection.span), message);
     let writer = graph.place(graph.pass(connection.from.pass).span);

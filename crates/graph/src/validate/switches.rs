@@ -1,4 +1,4 @@
-//! Passes that are switched off, and what flows in their place.
+//! Passes that are disabled, and what flows in their place.
 
 use tyndall_document::{Diagnostic, Place};
 
@@ -14,10 +14,10 @@ use crate::handle::{Handle, Table};
 use crate::signature::RoleKind;
 use crate::wiring::{Feed, Feeds, Passes};
 
-/// Which passes are on, and what decides it.
+/// Which passes are enabled, and what decides it.
 pub(super) struct Switches {
     pub enabled: Table<Pass, bool>,
-    /// The parameter of the graph that switches a pass.
+    /// The parameter of the graph that enables a pass.
     pub switched_by: Table<Pass, Option<String>>,
     /// The parameters of the graph that are named.
     pub used: Vec<Handle<GraphValue>>,
@@ -43,13 +43,13 @@ pub(super) fn read(scope: &Scope<'_>, params: &Params<'_>, out: &mut Mistakes) -
     switches
 }
 
-/// Whether a parameter switches a pass on; where a mistake hides it, it does.
+/// Whether a parameter enables a pass; true if a mistake hides it.
 fn is_on(scope: &Scope<'_>, param: &GraphValue, place: Place, out: &mut Mistakes) -> bool {
     match &param.value {
         Some(ParamValue::Bool(on)) => *on,
         None => true,
         Some(other) => {
-            let message = format!("`enabled` is a switch, and ${} is {}", param.name, other.words());
+            let message = format!("`enabled` is a switch, but ${} is {}", param.name, other.words());
             let diagnostic = Diagnostic::error(codes::WRONG_REFERENCE_TYPE, place, message);
             out.report(diagnostic.relate(scope.place(param.definition), "defined here"));
             true
@@ -57,7 +57,7 @@ fn is_on(scope: &Scope<'_>, param: &GraphValue, place: Place, out: &mut Mistakes
     }
 }
 
-/// What feeds every port once the passes that are off are gone.
+/// What feeds every port once disabled passes are removed.
 pub(super) fn pass_through(
     passes: &Passes,
     order: &[Handle<Pass>],
@@ -69,7 +69,7 @@ pub(super) fn pass_through(
     if enabled.iter().all(|on| *on) {
         return feeds;
     }
-    // Past every pass that is off.
+    // Past every disabled pass.
     let flowing = |feeds: &Feeds, feed: Feed| match feed {
         Feed::Port(source) if !enabled[passes.pass_of[source]] => feeds[source],
         _ => feed,

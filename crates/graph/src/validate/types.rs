@@ -85,7 +85,7 @@ fn check_edges(
     }
 }
 
-/// What is wrong with a connection, in words.
+/// What is wrong with a connection.
 fn edge_mistake(
     scope: &Scope<'_>,
     port: Handle<GraphPort>,
@@ -106,7 +106,7 @@ fn edge_mistake(
     Some(diagnostic.relate(scope.place_of(writer), format!("`{from}` is written here")))
 }
 
-/// What an output declares; what it leaves open it has of `like`.
+/// What an output declares; what it leaves open is taken from `like`.
 fn declared(port: &PortDescriptor, like: Flow) -> Flow {
     match &port.kind {
         PortKind::Texture { dimension, class, format, .. } => {
@@ -125,7 +125,7 @@ fn declared(port: &PortDescriptor, like: Flow) -> Flow {
     }
 }
 
-/// The constant that stands for an optional input that nothing feeds.
+/// The constant that stands for an optional input that is not connected.
 fn absent(port: &PortDescriptor) -> Flow {
     let PortKind::Texture { dimension, class, format, filtered } = &port.kind else {
         return declared(port, Flow::UNKNOWN);
@@ -147,17 +147,17 @@ fn kind_mistake(demanded: &PortDescriptor, fed: &PortDescriptor, flow: Flow) -> 
         (_, Shape::Unknown) => None,
         (PortKind::Texture { dimension, class, format, filtered }, Shape::Texture { dimension: d, format: f }) => {
             if *dimension != d {
-                return Some((codes::WRONG_DIMENSION, format!("`{name}` is a {dimension} texture, and this is {d}")));
+                return Some((codes::WRONG_DIMENSION, format!("`{name}` is a {dimension} texture, but this is {d}")));
             }
             if *class != flow.class && *class != Class::Any {
-                let message = format!("`{name}` is of class {class}, and this is of class {}", flow.class);
+                let message = format!("`{name}` is of class {class}, but this is of class {}", flow.class);
                 return Some((codes::WRONG_CLASS, message));
             }
             if let Some(format) = format.filter(|format| *format != f) {
-                return Some((codes::WRONG_FORMAT, format!("`{name}` is read as {format}, and this is {f}")));
+                return Some((codes::WRONG_FORMAT, format!("`{name}` is read as {format}, but this is {f}")));
             }
             let unfiltered = *filtered && f.scalar() == Scalar::U32;
-            unfiltered.then(|| (codes::WRONG_FORMAT, format!("`{name}` is read through a filter, and this is {f}")))
+            unfiltered.then(|| (codes::WRONG_FORMAT, format!("`{name}` is read through a filter, but this is {f}")))
         }
         (PortKind::Buffer { element, stride }, Shape::Buffer { stride: s }) => {
             element_mistake(name, (element, *stride), (element_of(fed), s))
@@ -166,7 +166,7 @@ fn kind_mistake(demanded: &PortDescriptor, fed: &PortDescriptor, flow: Flow) -> 
             element_mistake(name, (element, *bytes), (element_of(fed), b))
         }
         (kind, shape) => {
-            let message = format!("`{name}` is {}, and this is {}", kind_words(kind), shape_words(shape));
+            let message = format!("`{name}` is {}, but this is {}", kind_words(kind), shape_words(shape));
             Some((codes::WRONG_KIND, message))
         }
     }
@@ -176,7 +176,7 @@ fn element_mistake(name: &str, demanded: (&str, u32), fed: (&str, u32)) -> Optio
     let (element, bytes) = demanded;
     (demanded != fed).then(|| {
         let message =
-            format!("`{name}` has elements `{element}` of {bytes} bytes, and this has `{}` of {} bytes", fed.0, fed.1);
+            format!("`{name}` has elements `{element}` of {bytes} bytes, but this has `{}` of {} bytes", fed.0, fed.1);
         (codes::WRONG_ELEMENT, message)
     })
 }
@@ -184,7 +184,7 @@ fn element_mistake(name: &str, demanded: (&str, u32), fed: (&str, u32)) -> Optio
 fn unit_mistake(demanded: &PortDescriptor, fed: &PortDescriptor) -> Option<(Code, String)> {
     let differ = !demanded.unit.is_empty() && !fed.unit.is_empty() && demanded.unit != fed.unit;
     differ.then(|| {
-        (codes::WRONG_UNIT, format!("`{}` is in {}, and this is in {}", demanded.name, demanded.unit, fed.unit))
+        (codes::WRONG_UNIT, format!("`{}` is in {}, but this is in {}", demanded.name, demanded.unit, fed.unit))
     })
 }
 

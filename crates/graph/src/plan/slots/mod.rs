@@ -1,7 +1,7 @@
 //! Which slot holds each port.
 //!
 //! Ports of equal resources share slots by a linear scan over the order: a slot is free again after the pass that reads
-//! its port last. For intervals that is optimal: a class never has more slots than ports alive at one time. A version
+//! its port last. For intervals this is optimal: a class never has more slots than ports alive at one time. A version
 //! made in place belongs to the interval of the version before it.
 
 use rustc_hash::FxHashMap;
@@ -17,14 +17,14 @@ use crate::handle::{Handle, Segment, Table};
 use crate::signature::RoleKind;
 use crate::wiring::{GraphPort, Shape, Wiring};
 
-/// What may share, and what outlives a frame.
+/// Which ports may share slots, and which outlive a frame.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Policy {
     pub share: bool,
     pub keep: bool,
 }
 
-/// Every port in a slot.
+/// The slot of every port.
 pub(super) struct Assignment {
     pub ports: Table<PlannedPort>,
     pub slots: Table<Slot>,
@@ -33,7 +33,7 @@ pub(super) struct Assignment {
     pub classes: Table<ClassBytes>,
 }
 
-/// Gives every port a slot.
+/// Assigns a slot to every port.
 pub(super) fn assign(wiring: &Wiring, sizes: &Sizes, draft: &Draft, policy: Policy) -> Assignment {
     let mut scan = Scan::new(wiring, sizes, draft, policy);
     for position in draft.passes.handles() {
@@ -175,7 +175,7 @@ impl<'a> Scan<'a> {
         slot
     }
 
-    /// A new version: in place where nobody needs the old one any more, else in a copy.
+    /// A new version: in place if the old one is no longer needed, else in a copy.
     fn changed(
         &mut self,
         number: Handle<GraphPort>,
@@ -266,7 +266,7 @@ impl<'a> Scan<'a> {
         self.done.slots.push(Slot { resource, kind, first_port: None })
     }
 
-    /// Puts the next port of the draft into a slot, behind those that were there before. Slots are given in the order of
+    /// Puts the next port of the draft into a slot, after those that were there before. Slots are given in the order of
     /// the draft's ports: pass by pass, and in each by the descriptor.
     fn hold(&mut self, slot: Handle<Slot>, in_place: bool) {
         let port = self.done.ports.next_handle();

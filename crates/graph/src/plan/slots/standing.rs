@@ -1,4 +1,4 @@
-//! Slots that hold what no pass of this frame writes: constants, and what ports held in the frame before.
+//! Slots whose content no pass of this frame writes: constants, and what ports held in the frame before.
 
 use super::Scan;
 use crate::handle::Handle;
@@ -7,7 +7,7 @@ use crate::signature::PortSignature;
 use crate::wiring::GraphPort;
 
 impl Scan<'_> {
-    /// The slot of what a port held in the frame before. Its content's slot is known when all is assigned.
+    /// The slot of what a port held in the frame before. The slot to copy it from is known once all are assigned.
     pub(super) fn history(&mut self, number: Handle<GraphPort>, port: &PortSignature) -> Handle<Slot> {
         let first = port.constant;
         let Some(of) = self.source(number) else { return self.constant_for(number) };
