@@ -20,7 +20,7 @@ use std::time::Instant;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use tyndall_compare::{Point, Unit, curves};
+use tyndall_page::{Point, Unit, curves};
 use tyndall_plugin::each_texel;
 use tyndall_scene::{Extensions, Scene};
 use tyndall_shaders::airlight::airlight;

@@ -7,8 +7,7 @@
 //! | entries to checked scenes and planned graphs, without a GPU | [`prepare`] | [`PreparedScene`] |
 //! | pictures, truth, errors, times | [`compare`] | [`Comparison`] |
 //!
-//! The truth is computed by the twins of the shaders (`tyndall_shaders`), whatever the methods are. [`curves`] plots other
-//! measurements.
+//! The truth is computed by the twins of the shaders (`tyndall_shaders`), whatever the methods are.
 
 mod casters;
 pub mod codes;
@@ -18,7 +17,6 @@ mod figures;
 mod file;
 mod measure;
 mod page;
-mod plot;
 mod prepare;
 mod report;
 mod round;
@@ -30,7 +28,6 @@ mod truth;
 
 pub use codes::CODES;
 pub use file::{CompareFile, Entry, read};
-pub use plot::{Point, Quantity, Unit, curves};
 pub use prepare::{PreparedScene, prepare};
 pub use report::Comparison;
 pub use run::{Error, Progress, compare, steps};

@@ -6,13 +6,13 @@ use serde_json::Value;
 use tyndall_image::{Error, Image, Meaning, write_bytes};
 
 use crate::figures::Figures;
-use crate::page::{self, Picture};
+use crate::page::{self, Pixels};
 use crate::table;
 
 /// A finished comparison.
 pub struct Comparison {
     pub(crate) figures: Figures,
-    pub(crate) pictures: Vec<Picture>,
+    pub(crate) pictures: Vec<Pixels>,
 }
 
 impl Comparison {

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use tyndall_gpu::{FrameOptions, Gpu, PipelineCache};
+use tyndall_page::false_color::of_error;
 use tyndall_plugin::Registry;
 use tyndall_render::Running;
 use tyndall_scene::Scene;
@@ -15,7 +16,7 @@ use crate::errors::Errors;
 use crate::figures::{Figures, Method, Row, SceneFigures};
 use crate::file::{CompareFile, Entry};
 use crate::measure::Measured;
-use crate::page::{Names, Picture};
+use crate::page::{Names, Pixels};
 use crate::prepare::PreparedScene;
 use crate::report::Comparison;
 use crate::truth::{Geometry, Seen, Truth};
@@ -119,7 +120,7 @@ struct Work<'a> {
     rounds: u32,
     cache: PipelineCache,
     progress: Progress<'a>,
-    pictures: Vec<Picture>,
+    pictures: Vec<Pixels>,
 }
 
 impl Work<'_> {
@@ -133,7 +134,7 @@ impl Work<'_> {
         (self.progress)(Some(&format!("{name}: truth")), 0);
         let truth = self.truth(scene).map_err(|error| Error::Geometry { scene: name.to_owned(), error })?;
         let names = Names::new(index, name);
-        self.pictures.push(Picture { path: names.truth(), pixels: color::of_truth(&truth) });
+        self.pictures.push(Pixels { path: names.truth(), pixels: color::of_truth(&truth) });
         let mut ready = Vec::new();
         let mut errors = Vec::new();
         for (place, method) in scene.methods.iter().enumerate() {
@@ -185,8 +186,8 @@ impl Work<'_> {
 
     fn draw(&mut self, names: &Names<'_>, of: (usize, &str), found: &[[f32; 3]], errors: &Errors, mean: f64) {
         let light = found.iter().map(|pixel| color::of_light(pixel.map(f64::from), mean)).collect();
-        let error = errors.of_pixels.iter().map(|error| color::of_error(*error)).collect();
-        self.pictures.push(Picture { path: names.found(of), pixels: light });
-        self.pictures.push(Picture { path: names.error(of), pixels: error });
+        let error = errors.of_pixels.iter().map(|error| of_error(*error)).collect();
+        self.pictures.push(Pixels { path: names.found(of), pixels: light });
+        self.pictures.push(Pixels { path: names.error(of), pixels: error });
     }
 }

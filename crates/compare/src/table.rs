@@ -1,8 +1,9 @@
 //! Figures as tables: plain text, Markdown and HTML from the same cells.
 
+use tyndall_page::escaped;
+
 use crate::errors::FLOOR;
 use crate::figures::{Figures, Method, Row};
-use crate::page::escaped;
 
 const COLUMNS: [&str; 11] =
     ["method", "p50", "p95", "p99", "max", "sum", "GPU time", "once", "CPU time", "memory", "kept"];

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::time::Duration;
 
 use serde_json::{Value, json};
+use tyndall_page::escaped;
 
 use crate::outcome::{Outcome, PortOutcome, Problem, RelationOutcome, State};
 use crate::session::Saved;
@@ -188,39 +189,10 @@ pub fn junit(outcomes: &[Outcome]) -> String {
     xml + "</testsuite>\n</testsuites>\n"
 }
 
-/// XML 1.0 has no way to write most control characters at all.
-pub(crate) fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '&' => out += "&amp;",
-            '<' => out += "&lt;",
-            '>' => out += "&gt;",
-            '"' => out += "&quot;",
-            '\n' | '\t' => out.push(letter),
-            unwritable if unwritable.is_control() || matches!(unwritable, '\u{fffe}' | '\u{ffff}') => {
-                out.push('\u{fffd}')
-            }
-            other => out.push(other),
-        }
-    }
-    out
-}
-
 /// The slowest tests, a line each.
 pub fn slowest(outcomes: &[Outcome]) -> Vec<String> {
     let mut by_time: Vec<&Outcome> = outcomes.iter().collect();
     by_time.sort_by_key(|outcome| std::cmp::Reverse(outcome.took));
     let line = |outcome: &&Outcome| format!("{:>9.1} ms  {}", outcome.took.as_secs_f64() * 1e3, outcome.name());
     by_time.iter().take(SLOWEST).map(line).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn xml_is_escaped() {
-        assert_eq!(escaped("a<b> & \"c\"\u{1b}\u{ffff}\n"), "a&lt;b&gt; &amp; &quot;c&quot;\u{fffd}\u{fffd}\n");
-    }
 }

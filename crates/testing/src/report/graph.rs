@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
+use tyndall_page::{Picture, escaped};
+
 use super::port::{anchor, state};
 use crate::outcome::{Outcome, PassOutcome, PortOutcome, State};
-use crate::summary::escaped;
 
 /// Width of a pass, and the room between, in CSS pixels.
 const CARD: usize = 176;
@@ -115,11 +116,10 @@ fn class(port: &PortOutcome) -> &'static str {
 }
 
 fn thumbnail(name: &str, frame: u32, folder: &str, (target, class, said): (&str, &str, &str)) -> String {
-    let (name, target) = (escaped(name), escaped(target));
-    let frame_said = if frame > 0 { format!(", frame {frame}") } else { String::new() };
-    format!(
-        "<a class=\"{class}\" href=\"{target}\" title=\"{name}{frame_said}: {said}\"><img src=\"{folder}/{name}.{frame}.actual.png\" alt=\"{name}{frame_said}\"></a>"
-    )
+    let (path, target) = (format!("{folder}/{name}.{frame}.actual.png"), escaped(target));
+    let alt = if frame > 0 { format!("{name}, frame {frame}") } else { name.to_owned() };
+    let picture = Picture { path: &path, alt: &alt, ..Picture::default() }.html();
+    format!("<a class=\"{class}\" href=\"{target}\" title=\"{}: {said}\">{picture}</a>", escaped(&alt))
 }
 
 fn card(outcome: &Outcome, pass: &PassOutcome, (x, y, height): Place, thumbnails: &[String]) -> String {

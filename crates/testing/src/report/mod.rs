@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use tyndall_image::{Error, NewFolder};
+use tyndall_page::STYLE;
 
 use self::pictures::{Folder, Shown};
 use crate::outcome::{GOLDEN, Outcome, RelationOutcome, State};
@@ -76,7 +77,7 @@ impl Report {
         let holds_report =
             |there: &Path| std::fs::read_to_string(there.join("index.html")).is_ok_and(|page| page.contains(GENERATOR));
         let folder = NewFolder::begin(target, holds_report)?;
-        folder.write("report.css", include_bytes!("report.css"))?;
+        folder.write("report.css", [STYLE, include_str!("report.css")].concat().as_bytes())?;
         folder.write("report.js", include_bytes!("report.js"))?;
         Ok(Self { folder, target: target.to_owned(), pages: Mutex::default() })
     }

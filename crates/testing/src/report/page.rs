@@ -2,20 +2,20 @@
 
 use std::fmt::Write as _;
 
+use tyndall_page::{Page, Picture, escaped};
+
 use super::graph::graph;
 use super::pictures::Shown;
 use super::port::{port, relation};
 use super::{GENERATOR, Pictures};
 use crate::outcome::{Outcome, RelationOutcome, State};
-use crate::summary::{self, escaped};
+use crate::summary;
+
+/// What every page has in its head.
+const HEAD: &str = "<link rel=\"icon\" href=\"data:,\">\n<link rel=\"stylesheet\" href=\"report.css\">\n<script src=\"report.js\" defer></script>\n";
 
 fn whole(title: &str, body: &str) -> String {
-    let title = escaped(title);
-    format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n{GENERATOR}\n\
-         <title>{title}</title>\n<link rel=\"icon\" href=\"data:,\">\n<link rel=\"stylesheet\" href=\"report.css\">\n<script src=\"report.js\" defer></script>\n</head>\n\
-         <body>\n{body}</body>\n</html>\n"
-    )
+    Page { title, head: &format!("{GENERATOR}\n{HEAD}"), body }.html()
 }
 
 /// What became of a test: as the style sheet calls it, and in words.
@@ -54,7 +54,7 @@ fn row(outcome: &Outcome) -> String {
     let guilty = outcome.guilty().first().map(|pass| format!("<b>{}</b>", escaped(pass)));
     let why = || summary::headline(outcome).map(|why| format!("<small>{}</small>", escaped(&why)));
     let picture = match &outcome.picture {
-        Some(path) => format!("<img src=\"{}\" alt=\"\">", escaped(path)),
+        Some(path) => Picture { path, ..Picture::default() }.html(),
         None => String::new(),
     };
     format!(

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use tyndall_graph::descriptor::Class;
 use tyndall_image::{Error, Image, Meaning, NewFolder, encode_png, srgb_from_linear};
+use tyndall_page::false_color::{NOT_A_NUMBER, Rgb, STEPS, of_difference};
 
 use crate::flip;
 use crate::metric::{ALPHA_TOLERANCE, Compared, Metric};
@@ -89,13 +90,14 @@ impl Folder<'_> {
         let excess = of_metric(actual, expected, metric);
         let (width, height) = flat(&actual.image);
         let largest = excess.iter().copied().filter(|excess| excess.is_finite()).fold(10.0, f64::max);
-        let image = |colour: &dyn Fn(f64) -> [f32; 3]| {
-            Image::new(width, height, 3, excess.iter().flat_map(|excess| colour(*excess)).collect())
+        let image = |color: &dyn Fn(f64) -> Rgb| {
+            let bytes = excess.iter().flat_map(|excess| color(*excess));
+            Image::new(width, height, 3, bytes.map(|byte| f32::from(byte) / 255.0).collect())
         };
-        let level = |excess: f64| MULTIPLES.iter().filter(|multiple| excess > **multiple).count();
+        let exceeded = |excess: f64| MULTIPLES.iter().filter(|multiple| excess > **multiple).count();
         self.save(stem, "expected", &exposure.shown(expected))?;
-        self.save(stem, "difference", &image(&|excess| heat(excess, largest)))?;
-        self.save(stem, "failing", &image(&|excess| step(level(excess))))?;
+        self.save(stem, "difference", &image(&|excess| of_difference(excess, largest)))?;
+        self.save(stem, "failing", &image(&|excess| STEPS[exceeded(excess)]))?;
         let failing = MULTIPLES.map(|multiple| excess.iter().filter(|excess| **excess > multiple).count());
         Ok(Against { failing, pixels: excess.len(), largest, histogram: histogram(expected, exposure.range) })
     }
@@ -146,8 +148,8 @@ impl Exposure {
             [] => [0.0; 3],
         };
         let (width, height) = flat(&compared);
-        let nan_is_seen =
-            |texel: [f32; 3]| if texel.iter().any(|value| value.is_nan()) { [1.0, 0.0, 1.0] } else { texel };
+        let nan = NOT_A_NUMBER.map(|byte| f32::from(byte) / 255.0);
+        let nan_is_seen = |texel: [f32; 3]| if texel.iter().any(|value| value.is_nan()) { nan } else { texel };
         let data = compared.data.chunks_exact(channels).flat_map(|numbers| nan_is_seen(texel(numbers))).collect();
         Image::new(width, height, 3, data)
     }
@@ -187,30 +189,6 @@ fn excess(actual: &Picture, expected: &Picture, scale: f64) -> Vec<f64> {
     pixels.map(|(a, b)| a.iter().zip(b).map(difference).fold(0.0, f64::max)).collect()
 }
 
-/// Black where nothing differs, blue below the tolerance, red beyond it, yellow, and white at the largest difference;
-/// magenta where there is no number.
-fn heat(excess: f64, largest: f64) -> [f32; 3] {
-    if !excess.is_finite() {
-        return [1.0, 0.0, 1.0];
-    }
-    if excess <= 1.0 {
-        // From a hundredth of the tolerance.
-        let part = ((excess.max(1e-2).log10() + 2.0) / 2.0) as f32;
-        return [0.1 * part, 0.3 * part, 0.9 * part];
-    }
-    let part = (excess.ln() / largest.ln()).clamp(0.0, 1.0) as f32;
-    let channel = |from: f32, to: f32| ((part - from) / (to - from)).clamp(0.0, 1.0);
-    [0.6 + 0.4 * channel(0.0, 0.4), channel(0.1, 0.7), channel(0.7, 1.0)]
-}
-
-/// The colours of pixels by how many multiples of the tolerance they are beyond, sRGB.
-pub(super) const STEPS: [[u8; 3]; MULTIPLES.len() + 1] =
-    [[20, 20, 26], [64, 90, 153], [217, 166, 38], [230, 80, 30], [255, 190, 200]];
-
-fn step(level: usize) -> [f32; 3] {
-    STEPS[level.min(MULTIPLES.len())].map(|code| f32::from(code) / 255.0)
-}
-
 /// Numbers in 32 equal ranges; those outside count in the outermost, those that are not finite nowhere.
 fn histogram(picture: &Picture, (low, high): (f32, f32)) -> Vec<usize> {
     let mut counts = vec![0; 32];
@@ -246,21 +224,6 @@ mod tests {
         let seen = Metric::Flip { mean: 0.005, p99: Some(0.05) };
         assert!(of_metric(&grey(129.0), &grey(128.0), seen).iter().all(|excess| *excess < 1.0));
         assert!(of_metric(&grey(255.0), &grey(0.0), seen).iter().all(|excess| *excess > 4.0));
-    }
-
-    #[test]
-    fn no_two_differences_look_alike() {
-        let rises = |excesses: &[f64]| {
-            let brightness: Vec<f32> = excesses.iter().map(|excess| heat(*excess, 1e4).iter().sum()).collect();
-            assert!(brightness.windows(2).all(|pair| pair[0] < pair[1]), "{brightness:?}");
-        };
-        rises(&[0.0, 0.1, 0.5, 1.0]);
-        rises(&[1.1, 3.0, 30.0, 300.0, 1e4]);
-        // The tolerance is where blue ends and red begins.
-        let ([red, _, blue], [red_beyond, _, blue_beyond]) = (heat(1.0, 1e4), heat(1.001, 1e4));
-        assert!(blue > 3.0 * red && red_beyond > 3.0 * blue_beyond);
-        assert_eq!((heat(0.0, 1e4), heat(1e4, 1e4)), ([0.0; 3], [1.0; 3]));
-        assert_eq!(heat(f64::INFINITY, 1e4), [1.0, 0.0, 1.0]);
     }
 
     #[test]

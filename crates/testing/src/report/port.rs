@@ -2,10 +2,12 @@
 
 use std::fmt::Write as _;
 
+use tyndall_page::false_color::STEPS;
+use tyndall_page::{Picture, escaped, figure};
+
 use super::PortPictures;
-use super::pictures::{Against, MULTIPLES, STEPS, Shown};
+use super::pictures::{Against, MULTIPLES, Shown};
 use crate::outcome::{GOLDEN, Outcome, PortOutcome, RelationOutcome, State};
-use crate::summary::escaped;
 
 /// The place of a port on its page.
 pub(super) fn anchor(port: &PortOutcome) -> String {
@@ -101,29 +103,37 @@ fn used(excess: f64) -> String {
 }
 
 fn pictures(shown: &Shown, folder: &str) -> String {
-    let image = |what: &str| format!("<img src=\"{folder}/{}.{what}.png\" alt=\"{what}\">", escaped(&shown.stem));
-    let range = format!("{} to {}", short(f64::from(shown.range.0)), short(f64::from(shown.range.1)));
-    let Some(against) = &shown.against else {
-        return format!(
-            "<div class=\"pictures\"><figure>{}<figcaption>what came out</figcaption></figure><figure>{}<figcaption>{range}</figcaption></figure></div>\n",
-            image("actual"),
-            histogram(shown)
-        );
+    let image = |what: &str| {
+        let path = format!("{folder}/{}.{what}.png", shown.stem);
+        Picture { path: &path, alt: what, ..Picture::default() }.html()
     };
-    let actual = "<span><i class=\"actual\"></i>what came out</span>";
-    let expected = "<span><i class=\"expected\"></i>what was expected</span>";
+    let range = format!("{} to {}", short(f64::from(shown.range.0)), short(f64::from(shown.range.1)));
+    let figures = match &shown.against {
+        None => figure(&image("actual"), "what came out") + &figure(&histogram(shown), &range),
+        Some(against) => {
+            let actual = "<span><i class=\"actual\"></i>what came out</span>";
+            let expected = "<span><i class=\"expected\"></i>what was expected</span>";
+            let counts = format!("<span class=\"counts\">{actual}{expected}<span>{range}</span></span>");
+            let largest = short(against.largest);
+            let difference =
+                format!("difference: blue within the tolerance, red beyond it, white at {largest} times it");
+            figure(&one_over_the_other(&image("actual"), &image("expected")), SIDES)
+                + &figure(&image("difference"), &difference)
+                + &figure(&image("failing"), &failing(against))
+                + &figure(&histogram(shown), &counts)
+        }
+    };
+    format!("<div class=\"pictures\">{figures}</div>\n")
+}
+
+/// What is seen on which side of the slider.
+const SIDES: &str = "expected to the left, actual to the right";
+
+/// Two pictures in one place, and the slider that parts them.
+fn one_over_the_other(actual: &str, expected: &str) -> String {
     format!(
-        "<div class=\"pictures\"><figure><div class=\"compare\">{}<div class=\"over\">{}</div></div>\
-         <input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"expected to the left, actual to the right\"><figcaption>expected to the left, actual to the right</figcaption></figure>\
-         <figure>{}<figcaption>difference: blue within the tolerance, red beyond it, white at {} times it</figcaption></figure>\
-         <figure>{}<figcaption>{}</figcaption></figure><figure>{}<figcaption><span class=\"counts\">{actual}{expected}<span>{range}</span></span></figcaption></figure></div>\n",
-        image("actual"),
-        image("expected"),
-        image("difference"),
-        short(against.largest),
-        image("failing"),
-        failing(against),
-        histogram(shown)
+        "<div class=\"compare\">{actual}<div class=\"over\">{expected}</div></div>\
+         <input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"{SIDES}\">"
     )
 }
 
