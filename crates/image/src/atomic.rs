@@ -5,7 +5,7 @@
 
 use std::fs::{File, Permissions};
 use std::io::{self, BufWriter, Seek, SeekFrom};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
@@ -17,7 +17,8 @@ pub type Writer<'a> = BufWriter<&'a File>;
 /// Writes the file `path` by `write`, whole or not at all.
 ///
 /// Missing parent folders are created. A new file gets the usual permissions, an existing one keeps its own. A symbolic
-/// link is kept, and its target is replaced. A device or a pipe (`/dev/stdout`) is written to once all data are there.
+/// link is kept, and its target is replaced. A device, a pipe, or an open file of this process (`/dev/stdout`) is written to
+/// once all data are there.
 ///
 /// # Errors
 /// If the path is a folder or may not be written (the user's fault), if the disk is full, or if `write` fails.
@@ -42,6 +43,23 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     write_atomically(path, |writer| io::Write::write_all(writer, bytes))
 }
 
+/// Where a path leads: absolute, with links and `..` resolved as far as there are folders. Two paths to one file lead to one
+/// place, also where the file is not there yet.
+pub fn resolved(path: &Path) -> PathBuf {
+    let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let mut resolved = PathBuf::new();
+    for component in absolute.components() {
+        match component {
+            Component::ParentDir => drop(resolved.pop()),
+            component => resolved.push(component),
+        }
+        if let Ok(real) = resolved.canonicalize() {
+            resolved = real;
+        }
+    }
+    resolved
+}
+
 enum Target {
     File { path: PathBuf, permissions: Option<Permissions> },
     Device,
@@ -50,8 +68,7 @@ enum Target {
 /// What is at `path` now, links followed.
 fn target(path: &Path) -> Result<Target, Error> {
     let refused = |what: &str| Err(Error::new(Kind::Usage, path, format!("cannot write: {what}")));
-    // The shell may have redirected it to a file, which must not be replaced.
-    if path.starts_with("/dev") {
+    if is_open_file(path) {
         return Ok(Target::Device);
     }
     match std::fs::metadata(path) {
@@ -68,6 +85,24 @@ fn target(path: &Path) -> Result<Target, Error> {
             Ok(Target::File { path, permissions: Some(found.permissions()) })
         }
     }
+}
+
+/// Whether a path names a file that this process holds open, as `/dev/stdout` does. That may be a file wherever the shell
+/// has sent it, and must not be replaced there.
+fn is_open_file(path: &Path) -> bool {
+    let mut path = path.to_owned();
+    // Links in a row: as many as Linux follows.
+    for _ in 0..40 {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        if folder.canonicalize().is_ok_and(|folder| folder.starts_with("/proc")) {
+            return true;
+        }
+        match std::fs::read_link(&path) {
+            Ok(target) => path = folder.join(target),
+            Err(_) => return false,
+        }
+    }
+    false
 }
 
 fn replace(

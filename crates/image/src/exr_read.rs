@@ -1,9 +1,14 @@
-//! Reading OpenEXR: R, G, B (A); Y; X, Y (Z); or a single channel of any name, of half, float or whole numbers.
+//! Reading OpenEXR: R, G, B; X, Y (Z); Y; or a single channel of any name, each with or without A, of half, float or whole
+//! numbers.
+//!
+//! The picture is what the display window shows: pixels outside the data window are 0, and those of the data window outside
+//! the display window (overscan) are left out.
 //!
 //! B44 and DWA compression are not supported. Sizes are checked against the file's length before anything of that size
 //! is allocated.
 
 use std::io::Cursor;
+use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use exr::block::UncompressedBlock;
@@ -36,9 +41,11 @@ fn decode_checked<T: FromExact>(bytes: &[u8]) -> Result<Image<T>, String> {
     if !is_safe(header.compression) {
         return Err(format!("EXR files with {} are not supported", header.compression));
     }
-    let (width, height) = (header.layer_size.width(), header.layer_size.height());
-    let data = vec![T::default(); width * height * sources.len()];
-    let mut image = Image::new(width as u32, height as u32, sources.len() as u32, data);
+    let window = Window::of(header)?;
+    let [width, height] = window.size;
+    let channels = sources.len();
+    let mut image = Image::new(width as u32, height as u32, channels as u32, vec![T::default(); width * height * channels]);
+    let samples = header.layer_size.width() * header.layer_size.height() * distinct(&sources);
 
     let first_level = |block: exr::block::BlockIndex| block.layer == layer && block.level == exr::math::Vec2(0, 0);
     let chunks = reader.filter_chunks(false, |_, _, block| first_level(block)).map_err(said)?;
@@ -46,15 +53,62 @@ fn decode_checked<T: FromExact>(bytes: &[u8]) -> Result<Image<T>, String> {
     chunks
         .decompress_sequential(false, |meta, block| {
             if first_level(block.index) {
-                filled += copy_block(&meta.headers[layer], &block, &sources, &mut image);
+                filled += copy_block(&meta.headers[layer], &block, &sources, (window, &mut image));
             }
             Ok(())
         })
         .map_err(said)?;
-    match filled == image.data.len() {
+    match filled == samples {
         true => Ok(image),
         false => Err("parts of the picture are missing".to_owned()),
     }
+}
+
+/// Where the pixels of a file lie in the picture that it shows.
+#[derive(Clone, Copy)]
+struct Window {
+    /// Pixels of the display window.
+    size: [usize; 2],
+    /// Of the first pixel of the data window, from the first of the display window.
+    offset: [i64; 2],
+}
+
+impl Window {
+    fn of(header: &Header) -> Result<Self, String> {
+        let display = header.shared_attributes.display_window;
+        let position = header.own_attributes.layer_position;
+        let data = [header.layer_size.width(), header.layer_size.height()];
+        let size = [display.size.width(), display.size.height()];
+        let offset = [(position.0, display.position.0), (position.1, display.position.1)]
+            .map(|(data, display)| i64::from(data) - i64::from(display));
+        let window = Self { size, offset };
+        if size != data {
+            let channels = header.channels.list.len() as u64;
+            limits::window((size[0] as u64, size[1] as u64), (data[0] * data[1]) as u64, channels)?;
+        }
+        if [0, 1].iter().any(|&axis| window.inside(axis, 0, data[axis]).is_empty()) {
+            return Err(format!(
+                "its data window, {}, lies outside of its display window, {}",
+                corners([position.0, position.1], data),
+                corners([display.position.0, display.position.1], size)
+            ));
+        }
+        Ok(window)
+    }
+
+    /// Of `count` pixels of the data window along an axis from `first` on, those that the display window shows.
+    fn inside(&self, axis: usize, first: usize, count: usize) -> Range<usize> {
+        let start = first as i64 + self.offset[axis];
+        let skipped = (-start).clamp(0, count as i64);
+        let shown = (self.size[axis] as i64 - start).clamp(skipped, count as i64);
+        skipped as usize..shown as usize
+    }
+}
+
+/// `(5 4)-(14 11)`: the first and the last pixel.
+fn corners(first: [i32; 2], size: [usize; 2]) -> String {
+    let last = [0, 1].map(|axis| i64::from(first[axis]) + size[axis] as i64 - 1);
+    format!("({} {})-({} {})", first[0], first[1], last[0], last[1])
 }
 
 /// Whether the unpacker of the `exr` crate (1.74) withstands hostile data. That of B44 panics where arithmetic
@@ -71,18 +125,33 @@ fn choose_layer(headers: &[Header]) -> Result<(usize, Vec<usize>), String> {
         let names =
             headers.iter().flat_map(|header| header.channels.list.iter().map(|channel| channel.name.to_string()));
         let names: Vec<String> = names.take(16).collect();
-        format!("no layer with the channels R, G, B (A), or X, Y (Z), or Y; it has {}", names.join(", "))
+        format!("no layer with the channels R, G, B, or X, Y (Z), or Y, and A beside them; it has {}", names.join(", "))
     })?;
     Ok((layer, sources(&headers[layer]).unwrap_or_default()))
 }
 
+/// Of grey with alpha the grey is red, green and blue. `None` where the channels make no picture: what of them is colour
+/// cannot be left out.
 fn sources(header: &Header) -> Option<Vec<usize>> {
     let list = &header.channels.list;
     let of = |name: &str| list.iter().position(|channel| channel.name.eq(name));
     let all = |names: &[&str]| names.iter().map(|name| of(name)).collect::<Option<Vec<usize>>>();
-    let known = [&["R", "G", "B", "A"][..], &["R", "G", "B"], &["X", "Y", "Z"], &["X", "Y"], &["Y"]];
-    let found = known.iter().find_map(|names| all(names)).or((list.len() == 1).then(|| vec![0]));
-    found.filter(|found| found.iter().all(|&index| list[index].sampling.0 == 1 && list[index].sampling.1 == 1))
+    let alpha = of("A").filter(|_| list.len() > 1);
+    let colour = [&["R", "G", "B"][..], &["X", "Y", "Z"], &["X", "Y"], &["Y"]];
+    let alone = || (list.len() - usize::from(alpha.is_some()) == 1).then(|| vec![usize::from(alpha == Some(0))]);
+    let mut found = colour.iter().find_map(|names| all(names)).or_else(alone)?;
+    if let Some(alpha) = alpha {
+        match found.len() {
+            1 => found = vec![found[0]; 3],
+            2 => return None,
+            _ => {}
+        }
+        found.push(alpha);
+    }
+    // Y may be the luminance of a colour whose other two parts are these.
+    let is_luminance = of("R").is_none() && of("RY").or(of("BY")).is_some();
+    let whole = found.iter().all(|&index| list[index].sampling.0 == 1 && list[index].sampling.1 == 1);
+    (whole && !is_luminance).then_some(found)
 }
 
 fn check_size(header: &Header, file_bytes: usize) -> Result<(), String> {
@@ -99,27 +168,43 @@ fn check_size(header: &Header, file_bytes: usize) -> Result<(), String> {
     }
 }
 
-/// Copies the lines of a block into the image. Returns the number of samples copied.
+/// Channels of the file that make these.
+fn distinct(sources: &[usize]) -> usize {
+    sources.iter().enumerate().filter(|(at, source)| !sources[..*at].contains(source)).count()
+}
+
+/// Copies the lines of a block into the image; the number of samples that the block holds of its channels.
 fn copy_block<T: FromExact>(
     header: &Header,
     block: &UncompressedBlock,
     sources: &[usize],
-    image: &mut Image<T>,
+    (window, image): (Window, &mut Image<T>),
 ) -> usize {
-    let (width, channels) = (image.width as usize, sources.len());
-    let mut copied = 0;
+    let channels = sources.len();
+    let mut found = 0;
     for line in block.lines(&header.channels) {
-        let Some(target) = sources.iter().position(|&source| source == line.location.channel) else { continue };
-        let start = (line.location.position.1 * width + line.location.position.0) * channels + target;
-        let Some(row) = image.data.get_mut(start..) else { continue };
-        let row = row.iter_mut().step_by(channels).take(line.location.sample_count);
-        let kind = header.channels.list[line.location.channel].sample_type;
-        copied += copy_line(kind, line.value, row);
+        if !sources.contains(&line.location.channel) {
+            continue;
+        }
+        let (position, kind) = (line.location.position, header.channels.list[line.location.channel].sample_type);
+        found += line.value.len() / kind.bytes_per_sample();
+        let shown = window.inside(0, position.0, line.location.sample_count);
+        if shown.is_empty() || window.inside(1, position.1, 1).is_empty() {
+            continue;
+        }
+        let at = |axis: usize, first: usize| (first as i64 + window.offset[axis]) as usize;
+        let pixel = at(1, position.1) * window.size[0] + at(0, position.0 + shown.start);
+        let bytes = &line.value[shown.start * kind.bytes_per_sample()..shown.end * kind.bytes_per_sample()];
+        for target in (0..channels).filter(|&target| sources[target] == line.location.channel) {
+            let row = image.data.iter_mut().skip(pixel * channels + target).step_by(channels);
+            copy_line(kind, bytes, row);
+        }
     }
-    copied
+    found
 }
 
-fn copy_line<'a, T: FromExact + 'a>(kind: SampleType, bytes: &[u8], row: impl Iterator<Item = &'a mut T>) -> usize {
+/// Writes samples into a row, which may be longer.
+fn copy_line<'a, T: FromExact + 'a>(kind: SampleType, bytes: &[u8], row: impl Iterator<Item = &'a mut T>) {
     // The reader has brought the bytes into the machine's order.
     let four = || bytes.as_chunks::<4>().0.iter().copied();
     match kind {
@@ -129,8 +214,8 @@ fn copy_line<'a, T: FromExact + 'a>(kind: SampleType, bytes: &[u8], row: impl It
     }
 }
 
-fn fill<'a, T: FromExact + 'a>(row: impl Iterator<Item = &'a mut T>, samples: impl Iterator<Item = f64>) -> usize {
-    row.zip(samples).map(|(target, sample)| *target = T::from_exact(sample)).count()
+fn fill<'a, T: FromExact + 'a>(row: impl Iterator<Item = &'a mut T>, samples: impl Iterator<Item = f64>) {
+    row.zip(samples).for_each(|(target, sample)| *target = T::from_exact(sample));
 }
 
 fn said(error: exr::error::Error) -> String {

@@ -1,11 +1,12 @@
 //! Radiance RGBE: three mantissas of 8 bits with a common exponent; linear, no alpha, no NaN, no negative numbers.
 
-use std::io::{Cursor, Write};
+use std::io::{Read, Write};
 use std::path::Path;
 
+use image::DynamicImage;
 use image::codecs::hdr::HdrDecoder;
-use image::{DynamicImage, ImageDecoder};
 
+use crate::hdr_header::Header;
 use crate::{Error, Image, Meaning, limits, linear_from_srgb, write_atomically};
 
 /// The largest number of the format: mantissa 255, exponent 255.
@@ -49,12 +50,20 @@ fn rgbe(color: [f32; 3]) -> [u8; 4] {
 
 /// The colours of a `.hdr` file, three channels.
 pub(crate) fn decode(bytes: &[u8]) -> Result<Image, String> {
+    let header = Header::read(bytes)?;
+    let [width, height] = header.order.size(header.lines, header.length);
     let said = |error: image::ImageError| format!("not a valid HDR file: {error}");
-    let decoder = HdrDecoder::new(Cursor::new(bytes)).map_err(said)?;
-    let (width, height) = decoder.dimensions();
     limits::count((u64::from(width), u64::from(height)), 3, 4, bytes.len())?;
-    let image = DynamicImage::from_decoder(decoder).map_err(said)?;
-    Ok(Image::new(width, height, 3, image.into_rgb32f().into_raw()))
+    // The decoder knows one order; what any other means is worked out below.
+    let plain = format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", header.lines, header.length);
+    let decoder = HdrDecoder::new(plain.as_bytes().chain(header.pixels)).map_err(said)?;
+    let stored = DynamicImage::from_decoder(decoder).map_err(said)?.into_rgb32f().into_raw();
+    let mut data = Vec::with_capacity(stored.len());
+    for [x, y] in (0..height).flat_map(|y| (0..width).map(move |x| [x, y])) {
+        let at = 3 * header.order.index([x, y], header.lines, header.length);
+        data.extend((0..3).map(|channel| (f64::from(stored[at + channel]) / header.scale[channel]) as f32));
+    }
+    Ok(Image::new(width, height, 3, data))
 }
 
 #[cfg(test)]

@@ -8,6 +8,9 @@
 //! Invariants: row 0 is the top; a reader never panics and never allocates much more than the file can fill;
 //! every error names its file.
 //!
+//! A `.exr` file is read as its display window: pixels outside its data window are 0, those outside its display window are
+//! left out. The numbers of a `.hdr` file are divided by its EXPOSURE and COLORCORR, which makes radiance of them.
+//!
 //! Not supported: deep, subsampled or multi-view EXR, B44 and DWA compression, mip levels other than the first, ICC
 //! profiles of PNG files.
 
@@ -18,6 +21,7 @@ mod exr_write;
 mod folder;
 mod frames;
 mod hdr;
+mod hdr_header;
 mod image;
 mod kind;
 mod limits;
@@ -26,7 +30,7 @@ mod npy;
 mod png;
 mod srgb;
 
-pub use atomic::{Writer, write_atomically, write_bytes};
+pub use atomic::{Writer, resolved, write_atomically, write_bytes};
 pub use error::{Error, Kind};
 pub use exr_write::Precision;
 pub use folder::NewFolder;

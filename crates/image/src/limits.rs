@@ -18,6 +18,12 @@ const MOST_NUMBERS: u64 = 1 << 28;
 /// Largest factor by which a file may unpack. Deflate reaches 1032:1, and no other scheme of these formats exceeds it.
 const LARGEST_EXPANSION: u64 = 2_048;
 
+/// A picture may have so many times the pixels that its file holds, the others being 0, or [`MOST_EMPTY_NUMBERS`].
+const MOST_EMPTY: u64 = 64;
+
+/// 1920 × 1080 of four channels and more, 32 MiB.
+const MOST_EMPTY_NUMBERS: u64 = 1 << 23;
+
 /// The whole of the file at `path`.
 pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, Error> {
     let failed = |error: &std::io::Error| Error::io(path, "cannot read", error);
@@ -60,6 +66,15 @@ pub(crate) fn count(size: (u64, u64), channels: u64, bytes_each: u64, file_bytes
         return Err(format!("{width}x{height} pixels cannot come from a file of {file_bytes} bytes; it is damaged"));
     }
     Ok(count as usize)
+}
+
+/// Whether a picture of this size may be made of a file that holds only so many of its pixels.
+pub(crate) fn window(size: (u64, u64), pixels: u64, channels: u64) -> Result<(), String> {
+    let count = count(size, channels, 0, 0)? as u64;
+    if count > MOST_EMPTY_NUMBERS && count > pixels.saturating_mul(channels).saturating_mul(MOST_EMPTY) {
+        return Err(format!("of {}x{} pixels the file holds only {pixels}", size.0, size.1));
+    }
+    Ok(())
 }
 
 #[cfg(test)]

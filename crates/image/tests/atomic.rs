@@ -5,7 +5,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use tyndall_image::{Kind, write_atomically, write_bytes};
+use tyndall_image::{Kind, resolved, write_atomically, write_bytes};
 
 fn names(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> =
@@ -98,6 +98,60 @@ mod unix {
         write_bytes(&link, b"new").unwrap();
         assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
         assert_eq!(std::fs::read(&target).unwrap(), b"new");
+    }
+
+    #[test]
+    fn a_path_leads_to_one_place_however_it_is_spelt() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join("sub")).unwrap();
+        std::os::unix::fs::symlink("sub", folder.path().join("link")).unwrap();
+        let to = |path: &str| resolved(&folder.path().join(path));
+        for (one, other) in [
+            ("a.exr", "./a.exr"),
+            ("a.exr", ".//a.exr"),
+            ("a.exr", "sub/../a.exr"),
+            ("a.exr", "nowhere/../a.exr"),
+            ("sub/a.exr", "link/a.exr"),
+            ("sub/new/a.exr", "link/new/./a.exr"),
+            ("a.exr", "link/../a.exr"),
+        ] {
+            assert_eq!(to(one), to(other), "{one} and {other}");
+        }
+        assert_ne!(to("a.exr"), to("sub/a.exr"));
+        write_bytes(&folder.path().join("a.exr"), b"x").unwrap();
+        std::os::unix::fs::symlink("a.exr", folder.path().join("b.exr")).unwrap();
+        assert_eq!(to("a.exr"), to("b.exr"));
+        assert_eq!(resolved(Path::new("c.exr")), std::env::current_dir().unwrap().canonicalize().unwrap().join("c.exr"));
+    }
+
+    /// Memory as a file system is one like any other, though its name begins like that of a device.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn files_below_dev_are_files() {
+        let folder = tempfile::tempdir_in("/dev/shm").unwrap();
+        let path = folder.path().join("new/a.txt");
+        write_bytes(&path, b"first, longer").unwrap();
+        write_bytes(&path, b"second").unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"second");
+        assert_eq!(names(path.parent().unwrap()), ["a.txt"]);
+    }
+
+    /// As `/dev/stdout` is where the shell has sent it to a file, and a link of the user's to that.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn an_open_file_is_written_to_and_not_replaced() {
+        use std::os::fd::AsRawFd;
+        use std::os::unix::fs::MetadataExt;
+        let folder = tempfile::tempdir().unwrap();
+        let file = std::fs::File::create(folder.path().join("a.txt")).unwrap();
+        let link = folder.path().join("link.txt");
+        std::os::unix::fs::symlink(format!("/proc/self/fd/{}", file.as_raw_fd()), &link).unwrap();
+        for (path, text) in [(format!("/dev/fd/{}", file.as_raw_fd()).into(), "one"), (link, "two")] {
+            write_bytes(&path, text.as_bytes()).unwrap();
+            let there = folder.path().join("a.txt");
+            assert_eq!(std::fs::read_to_string(&there).unwrap(), text);
+            assert_eq!(std::fs::metadata(&there).unwrap().ino(), file.metadata().unwrap().ino());
+        }
     }
 
     #[test]
