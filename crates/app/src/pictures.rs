@@ -1,10 +1,11 @@
 //! Ports as files.
 
-use std::path::Path;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
 
 use tyndall_gpu::{Executor, Numbers, PortData};
 use tyndall_graph::{Handle, PlannedPort};
-use tyndall_image::{FileKind, Meaning, Sample, supported};
+use tyndall_image::{FileKind, Meaning, Sample, resolved, supported};
 use tyndall_render::{image, meaning, shape};
 
 use crate::failure::Failure;
@@ -45,4 +46,16 @@ pub(crate) fn no_picture(name: impl std::fmt::Display, path: &Path) -> Failure {
         "`{name}` is not a two-dimensional picture, so {} cannot hold it: write .npy",
         path.display()
     ))
+}
+
+/// Refuses two paths to one file.
+pub(crate) fn distinct(paths: &[PathBuf]) -> Result<(), Failure> {
+    let mut known: HashMap<PathBuf, &PathBuf> = HashMap::new();
+    for path in paths {
+        let Some(other) = known.insert(resolved(path), path) else { continue };
+        let also = if other.as_os_str() == path.as_os_str() { "" } else { &format!(" (also as {})", other.display()) };
+        let path = path.display();
+        return Err(Failure::Usage(format!("two outputs go to {path}{also}: one would overwrite the other")));
+    }
+    Ok(())
 }

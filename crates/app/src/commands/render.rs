@@ -14,7 +14,7 @@ use crate::App;
 use crate::cli::{Arguments, Render};
 use crate::failure::Failure;
 use crate::loading::{self, Loaded, Wanted};
-use crate::pictures::{no_picture, write_port};
+use crate::pictures::{distinct, no_picture, write_port};
 use crate::{plugins, terminal};
 
 /// A port, and the file that it goes to (with `####` for the number of a frame).
@@ -84,11 +84,7 @@ fn outputs(verb: &Render, graph: &Graph) -> Result<Vec<Output>, Failure> {
     if let Some(folder) = verb.dump.as_ref().filter(|folder| folder.exists() && !folder.is_dir()) {
         return Err(Failure::Usage(format!("--dump {} is not a folder", folder.display())));
     }
-    for (index, output) in outputs.iter().enumerate() {
-        if outputs[..index].iter().any(|other| other.pattern == output.pattern) {
-            let path = output.pattern.display();
-            return Err(Failure::Usage(format!("two outputs go to {path}: one would overwrite the other")));
-        }
+    for output in &outputs {
         if supported(&output.pattern)? != FileKind::Npy && !is_picture(graph, output.port) {
             return Err(no_picture(graph.port_name(output.port), &output.pattern));
         }
@@ -98,7 +94,21 @@ fn outputs(verb: &Render, graph: &Graph) -> Result<Vec<Output>, Failure> {
             return Err(Failure::Usage(format!("every frame would overwrite {path}: put #### in its name")));
         }
     }
+    refuse_shared_files(verb, graph, &outputs)?;
     Ok(outputs)
+}
+
+/// Two outputs must not go to one file, however the paths are spelt.
+fn refuse_shared_files(verb: &Render, graph: &Graph, outputs: &[Output]) -> Result<(), Failure> {
+    let (first, end) = verb.frames.unwrap_or((0, 1));
+    // Two patterns that differ give one path only where a number has as many digits as one of them asks for at least.
+    let longer = (1..=9).map(|digits| 10_u32.pow(digits)).filter(|frame| (first..end).contains(frame));
+    for frame in [first].into_iter().chain(longer) {
+        let named = outputs.iter().map(|output| frame_path(&output.pattern, frame));
+        let files: Vec<PathBuf> = named.chain(dumped(verb, graph, frame).map(|(_, path)| path)).collect();
+        distinct(&files)?;
+    }
+    Ok(())
 }
 
 /// `out/<graph>.<output>.exr`, `image` as `.png`; with the number of the frame where there are several.
@@ -132,19 +142,24 @@ fn write_frame(running: &Running<'_>, verb: &Render, outputs: &[Output], frame: 
         write_port(executor, port, &path)?;
         print_written(&path, executor, port);
     }
-    if let Some(folder) = &verb.dump {
-        let many = verb.frames.is_some_and(|(first, end)| end - first > 1);
-        let folder = if many { folder.join(format!("{frame:04}")) } else { folder.clone() };
-        let graph = &executor.plan().graph;
-        for port in graph.written_ports() {
-            let suffix = if is_picture(graph, port) { "exr" } else { "npy" };
-            let path = folder.join(format!("{}.{suffix}", graph.port_name(port)));
-            let Some(planned) = executor.plan().planned(port) else { continue };
-            write_port(executor, planned, &path)?;
-            print_written(&path, executor, planned);
-        }
+    for (port, path) in dumped(verb, &executor.plan().graph, frame) {
+        let Some(planned) = executor.plan().planned(port) else { continue };
+        write_port(executor, planned, &path)?;
+        print_written(&path, executor, planned);
     }
     Ok(())
+}
+
+/// What `--dump` writes of a frame.
+fn dumped<'a>(verb: &'a Render, graph: &'a Graph, frame: u32) -> impl Iterator<Item = (PortRef, PathBuf)> + 'a {
+    let many = verb.frames.is_some_and(|(first, end)| end - first > 1);
+    let folder = verb.dump.as_ref().map(|folder| if many { folder.join(format!("{frame:04}")) } else { folder.clone() });
+    folder.into_iter().flat_map(move |folder| {
+        graph.written_ports().map(move |port| {
+            let suffix = if is_picture(graph, port) { "exr" } else { "npy" };
+            (port, folder.join(format!("{}.{suffix}", graph.port_name(port))))
+        })
+    })
 }
 
 /// Prints what was written.

@@ -1,6 +1,6 @@
 //! `show`: the scheduled graph as text, drawing, dot or JSON.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use tyndall_graph::{Roots, show};
 
@@ -8,14 +8,17 @@ use crate::App;
 use crate::cli::{Arguments, Show};
 use crate::failure::Failure;
 use crate::loading::{self, Wanted};
+use crate::pictures::distinct;
 use crate::{plugins, terminal};
 
 pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Show) -> Result<(), Failure> {
+    let files: Vec<PathBuf> = [&verb.svg, &verb.dot, &verb.json].into_iter().flatten().cloned().collect();
+    distinct(&files)?;
     let registry = plugins::registry(app, arguments, &[&verb.graph.graph])?;
     let loaded = loading::load(&verb.graph, &registry)?;
     let plan = loading::plan(&loaded, Wanted { roots: Roots::Outputs, keep: false, live: &[] })?;
     let mut wrote = false;
-    let mut write = |path: &Option<std::path::PathBuf>, text: &dyn Fn() -> String| -> Result<(), Failure> {
+    let mut write = |path: &Option<PathBuf>, text: &dyn Fn() -> String| -> Result<(), Failure> {
         if let Some(path) = path {
             save(path, &text())?;
             wrote = true;

@@ -219,3 +219,33 @@ fn frame_n_is_at_n_24ths_of_a_second() {
     assert_eq!(metrics::differing_bits(&image(&desk, "one.npy"), &image(&desk, "a.0012.npy")).unwrap(), 0);
     desk.ends(2, &fog(&["--frames", "12..14", "--output", "airlight=one.npy"]));
 }
+
+/// Whatever the paths look like: nothing is drawn before that is known.
+#[test]
+fn two_outputs_do_not_go_to_one_file() {
+    let desk = Desk::new();
+    std::fs::create_dir(desk.path("sub")).unwrap();
+    std::os::unix::fs::symlink("sub", desk.path("link")).unwrap();
+    let absolute = desk.path("same.exr");
+    let pair = |one: &str, other: &str, more: &[&str]| {
+        let outputs = [format!("radiance={one}"), format!("surfaces.depth={other}")];
+        let mut arguments = fog(more);
+        outputs.iter().for_each(|output| arguments.extend(["--output", output]));
+        let ended = desk.ends(2, &arguments);
+        assert!(ended.err.contains("two outputs go to "), "{one} {other}: {}", ended.err);
+        assert!(desk.files("sub").is_empty() && !absolute.exists());
+    };
+    for other in ["same.exr", "./same.exr", ".//same.exr", "sub/../same.exr", "new/../same.exr", absolute.to_str().unwrap()] {
+        pair("same.exr", other, &[]);
+    }
+    pair("sub/a.exr", "link/a.exr", &[]);
+    pair("q####.exr", "./q####.exr", &["--frames", "0..2"]);
+    pair("q####.exr", "q#####.exr", &["--frames", "9999..10001"]);
+    let dumped = fog(&["--dump", "sub", "--output", "radiance=sub/surfaces.depth.exr"]);
+    assert!(desk.ends(2, &dumped).err.contains("two outputs go to "));
+    let dumped = fog(&["--dump", "sub", "--frames", "0..2", "--output", "radiance=sub/####/surfaces.depth.exr"]);
+    assert!(desk.ends(2, &dumped).err.contains("two outputs go to "));
+    let shown = ["show", "fog.graph.ron", "--svg", "a", "--dot", "./a"];
+    assert!(desk.ends(2, &shown).err.contains("two outputs go to "));
+    assert!(desk.files("sub").is_empty());
+}
