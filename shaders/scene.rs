@@ -114,7 +114,7 @@ pub enum Light {
     },
 }
 
-/// What rays can meet, in world space: twin of `Vertices`, `Triangles`, `Objects`, `Materials`, `Textures` and `Texels`.
+/// What rays can meet, in world space: twin of `Vertices`, `VertexColors`, `Triangles`, `Objects`, `Materials`, `Textures` and `Texels`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Surfaces {
     /// In the order in which passes number them.
@@ -143,6 +143,8 @@ pub struct Vertex {
     pub normal: DVec3,
     /// Texture coordinates; (0, 0) is the corner of the first texel of the top row.
     pub uv: DVec2,
+    /// Multiplies the diffuse reflectance.
+    pub color: DVec3,
 }
 
 /// How a surface reflects.
@@ -171,6 +173,15 @@ pub enum Wrap {
     Mirror,
 }
 
+/// What is read between the centres of texels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Filter {
+    /// A mean of the four nearest texels.
+    Linear,
+    /// The nearest texel.
+    Nearest,
+}
+
 /// A picture on a surface.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Texture {
@@ -180,6 +191,8 @@ pub struct Texture {
     pub height: u32,
     /// Along u and v.
     pub wrap: [Wrap; 2],
+    /// Between texels.
+    pub filter: Filter,
     /// Red, green and blue, sRGB, row by row from the top.
     pub texels: Vec<[u8; 3]>,
 }

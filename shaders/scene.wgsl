@@ -9,6 +9,7 @@
 //     var<uniform> background: Background;    var<storage, read> materials: Materials;
 //     var<storage, read> lights: Lights;      var<storage, read> textures: Textures;
 //     var<storage, read> texels: Texels;      var<uniform> ambient: Ambient;
+//     var<storage, read> vertex_colors: VertexColors;
 //     var<uniform> height_fog: HeightFog;     var<storage, read> phase_table: PhaseTable; (declared in phase.wgsl)
 //
 // Plugins bring others, and declare their structs in their own files.
@@ -130,6 +131,16 @@ struct Vertices {
     items: array<Vertex>,
 }
 
+// Each element: what multiplies the diffuse reflectance at a vertex, linear RGB, and 0. One for each vertex, or none where no
+// mesh of the scene has colours.
+struct VertexColors {
+    count: u32,
+    pad0: u32,
+    pad1: u32,
+    pad2: u32,
+    items: array<vec4<f32>>,
+}
+
 // Each element: three indices into the vertices, then the index of the object.
 struct Triangles {
     count: u32,
@@ -175,16 +186,19 @@ struct Materials {
     items: array<Material>,
 }
 
-// Values of two bits of Texture.wrap: what a coordinate outside 0..1 reads.
+// Values of two bits of Texture.sampling: what a coordinate outside 0..1 reads.
 const WRAP_REPEAT: u32 = 0u;
 const WRAP_CLAMP: u32 = 1u;
 const WRAP_MIRROR: u32 = 2u;
+
+// A bit of Texture.sampling: the nearest texel, and not a mean of four.
+const SAMPLE_NEAREST: u32 = 16u;
 
 struct Texture {
     offset: u32,                // of its first texel in the texels
     width: u32,
     height: u32,
-    wrap: u32,                  // a WRAP value for u in bits 0 and 1, for v in bits 2 and 3
+    sampling: u32,              // a WRAP value for u in bits 0 and 1, for v in bits 2 and 3; SAMPLE_NEAREST
 }
 
 struct Textures {

@@ -8,6 +8,7 @@
 
 var<uniform> camera: Camera;
 var<storage, read> vertices: Vertices;
+var<storage, read> vertex_colors: VertexColors;
 var<storage, read> triangles: Triangles;
 var<storage, read> objects: Objects;
 var<storage, read> materials: Materials;
@@ -48,19 +49,23 @@ fn wrapped(at: i32, size: i32, mode: u32) -> i32 {
 }
 
 fn texel(t: Texture, at: vec2<i32>) -> vec3<f32> {
-    let x = wrapped(at.x, i32(t.width), t.wrap & 3u);
-    let y = wrapped(at.y, i32(t.height), (t.wrap >> 2u) & 3u);
+    let x = wrapped(at.x, i32(t.width), t.sampling & 3u);
+    let y = wrapped(at.y, i32(t.height), (t.sampling >> 2u) & 3u);
     let packed = texels.items[t.offset + u32(y) * t.width + u32(x)];
     return linear_from_srgb(unpack4x8unorm(packed).rgb);
 }
 
-// Bilinear between texel centres, of linear values; no mip levels, since nothing is anti-aliased.
+// The nearest texel, or bilinear between texel centres, of linear values; no mip levels, since nothing is anti-aliased.
 fn base_color(index: u32, uv: vec2<f32>) -> vec3<f32> {
     if index == NO_TEXTURE {
         return vec3(1.0);
     }
     let t = textures.items[index];
-    let at = uv * vec2(f32(t.width), f32(t.height)) - 0.5;
+    let place = uv * vec2(f32(t.width), f32(t.height));
+    if (t.sampling & SAMPLE_NEAREST) != 0u {
+        return texel(t, vec2<i32>(floor(place)));
+    }
+    let at = place - 0.5;
     let corner = floor(at);
     let f = at - corner;
     let i = vec2<i32>(corner);
@@ -114,8 +119,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let object = objects.items[indices.w];
     let m = materials.items[object.material];
     let uv = (1.0 - u - v) * vec2(va.u, va.v) + u * vec2(vb.u, vb.v) + v * vec2(vc.u, vc.v);
+    var diffuse = m.diffuse * base_color(m.texture, uv);
+    if vertex_colors.count > 0u {
+        let a = vertex_colors.items[indices.x].rgb;
+        let b = vertex_colors.items[indices.y].rgb;
+        let c = vertex_colors.items[indices.z].rgb;
+        diffuse *= (1.0 - u - v) * a + u * b + v * c;
+    }
     textureStore(depth, id.xy, vec4(t));
     textureStore(normal, id.xy, vec4(n, 1.0));
-    textureStore(material, id.xy, 0, vec4(m.diffuse * base_color(m.texture, uv), f32(m.shininess_rank)));
+    textureStore(material, id.xy, 0, vec4(diffuse, f32(m.shininess_rank)));
     textureStore(material, id.xy, 1, vec4(m.specular, m.shininess));
 }

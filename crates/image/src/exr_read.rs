@@ -44,7 +44,8 @@ fn decode_checked<T: FromExact>(bytes: &[u8]) -> Result<Image<T>, String> {
     let window = Window::of(header)?;
     let [width, height] = window.size;
     let channels = sources.len();
-    let mut image = Image::new(width as u32, height as u32, channels as u32, vec![T::default(); width * height * channels]);
+    let mut image =
+        Image::new(width as u32, height as u32, channels as u32, vec![T::default(); width * height * channels]);
     let samples = header.layer_size.width() * header.layer_size.height() * distinct(&sources);
 
     let first_level = |block: exr::block::BlockIndex| block.layer == layer && block.level == exr::math::Vec2(0, 0);

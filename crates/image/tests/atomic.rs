@@ -121,7 +121,10 @@ mod unix {
         write_bytes(&folder.path().join("a.exr"), b"x").unwrap();
         std::os::unix::fs::symlink("a.exr", folder.path().join("b.exr")).unwrap();
         assert_eq!(to("a.exr"), to("b.exr"));
-        assert_eq!(resolved(Path::new("c.exr")), std::env::current_dir().unwrap().canonicalize().unwrap().join("c.exr"));
+        assert_eq!(
+            resolved(Path::new("c.exr")),
+            std::env::current_dir().unwrap().canonicalize().unwrap().join("c.exr")
+        );
     }
 
     /// Memory as a file system is one like any other, though its name begins like that of a device.

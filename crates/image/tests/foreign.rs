@@ -78,7 +78,10 @@ fn a_picture_is_what_its_display_window_shows() {
 #[test]
 fn pixels_that_are_all_outside_of_the_picture_are_refused() {
     let text = refused(FileKind::Exr, &exr(&["Y"], [[20, 0], [29, 7]], [[0, 0], [19, 15]], Blocks::ScanLines));
-    assert!(text.contains("its data window, (20 0)-(29 7), lies outside of its display window, (0 0)-(19 15)"), "{text}");
+    assert!(
+        text.contains("its data window, (20 0)-(29 7), lies outside of its display window, (0 0)-(19 15)"),
+        "{text}"
+    );
 }
 
 /// A picture may be much larger than what a file holds of it, but not by any factor.
@@ -126,7 +129,10 @@ fn reds(bytes: &[u8]) -> (u32, u32, Vec<f32>) {
 fn radiance_files_of_any_program() {
     let numbers = vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
     for name in ["#?RADIANCE", "#?RGBE", "#?AUTOPANO"] {
-        for header in [format!("{name}\nFORMAT=32-bit_rle_rgbe"), format!("{name}\n# made by hand\nFORMAT=32-bit_rle_rgbe\nGAMMA=1")] {
+        for header in [
+            format!("{name}\nFORMAT=32-bit_rle_rgbe"),
+            format!("{name}\n# made by hand\nFORMAT=32-bit_rle_rgbe\nGAMMA=1"),
+        ] {
             assert_eq!(reds(&radiance(&header, "-Y 2 +X 3")), (3, 2, numbers.clone()), "{header}");
         }
     }

@@ -7,7 +7,7 @@ use tyndall_shaders::scene::{HeightFog, Phase};
 
 use crate::frame::{FrameLight, View};
 use crate::geometry::Vertices;
-use crate::gltf::encoded_wrap;
+use crate::gltf::encoded_sampling;
 use crate::layout::{self, Shape, floats};
 use crate::model::{Instance, LightKind, Material, Medium};
 use crate::moment::Moment;
@@ -33,6 +33,7 @@ pub(crate) fn core_data() -> Vec<SceneData> {
         }),
         SceneData::list("lights", &[Part::Lights], |at| at.frame.lights.iter().map(encoded_light).collect()),
         SceneData::kept(vec![("vertices", Shape::list::<layout::Vertex>())], &[Part::Geometry], |_| Box::new(Vertices)),
+        SceneData::list("vertex_colors", &[Part::Materials], |at| vertex_colors(at.scene)),
         SceneData::list("triangles", &[Part::Winding], |at| at.triangles().collect()),
         SceneData::list("objects", &[Part::Materials], |at| at.scene.instances.iter().map(object).collect()),
         SceneData::list("materials", &[Part::Materials], materials),
@@ -128,6 +129,17 @@ fn object(instance: &Instance) -> layout::Object {
     layout::Object { material, casts_shadow, ..Default::default() }
 }
 
+/// One for each vertex, or none where no mesh of the scene has any.
+fn vertex_colors(scene: &Scene) -> Vec<[f32; 4]> {
+    let is_colored = scene.instances.iter().any(|instance| instance.has_colors);
+    let instances = scene.instances.iter().filter(|_| is_colored);
+    let colors = |instance: &Instance| {
+        let of_vertex = |vertex: usize| instance.color(vertex).extend(0.0).to_array();
+        (0..instance.mesh.positions.len()).map(of_vertex).collect::<Vec<_>>()
+    };
+    instances.flat_map(colors).collect()
+}
+
 fn materials(at: &Moment<'_>) -> Vec<layout::Material> {
     let shininesses = at.scene.shininesses();
     let encoded = |material: &Material| layout::Material {
@@ -144,8 +156,8 @@ fn materials(at: &Moment<'_>) -> Vec<layout::Material> {
 fn textures(scene: &Scene) -> Vec<layout::Texture> {
     let mut offset = 0;
     let encoded = |texture: &crate::model::Texture| {
-        let wrap = encoded_wrap(texture.wrap);
-        let encoded = layout::Texture { offset, width: texture.width, height: texture.height, wrap };
+        let sampling = encoded_sampling(texture);
+        let encoded = layout::Texture { offset, width: texture.width, height: texture.height, sampling };
         offset += texture.texels.len() as u32;
         encoded
     };

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use glam::{Vec2, Vec3};
 
-/// An indexed triangle mesh. `positions`, `normals` and `uvs` have one entry per vertex.
+/// An indexed triangle mesh. `positions`, `normals` and `uvs` have one entry per vertex, `colors` too or none at all.
 ///
 /// Triangles run counter-clockwise seen from outside (right-handed space).
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,6 +15,8 @@ pub struct Mesh {
     pub normals: Vec<Vec3>,
     /// Texture coordinates, (0, 0) the first texel of the image's top row, as in glTF.
     pub uvs: Vec<Vec2>,
+    /// Linear colours that multiply the diffuse reflectance.
+    pub colors: Vec<Vec3>,
     /// Three vertex indices each, all below `positions.len()`.
     pub triangles: Vec<[u32; 3]>,
 }
@@ -52,6 +54,7 @@ impl Mesh {
                 flat.positions.push(self.positions[index as usize]);
                 flat.uvs.push(self.uvs[index as usize]);
                 flat.normals.push(normal);
+                flat.colors.extend(self.colors.get(index as usize));
             }
             flat.triangles.push([first, first + 1, first + 2]);
         }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DQuat, DVec3};
+use glam::{DAffine3, DQuat, DVec3, Vec3};
 
 use crate::animate::Animated;
 use crate::field::Fields;
@@ -133,6 +133,16 @@ pub enum Wrap {
     Mirror = 2,
 }
 
+/// What a texture reads between the centres of texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub enum Filter {
+    /// A mean of the four nearest texels.
+    #[default]
+    Linear,
+    /// The nearest texel.
+    Nearest,
+}
+
 /// A picture on a surface.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Texture {
@@ -142,6 +152,8 @@ pub struct Texture {
     pub height: u32,
     /// Along u and v.
     pub wrap: [Wrap; 2],
+    /// Between texels.
+    pub filter: Filter,
     /// Row by row from the top, RGBA with R in the lowest 8 bits, sRGB.
     pub texels: Vec<u32>,
 }
@@ -201,6 +213,15 @@ pub struct Instance {
     pub primitive: Option<Primitive>,
     /// Index into the scene's materials.
     pub material: usize,
+    /// The colours of its mesh count; a material of the scene file replaces them as well.
+    pub has_colors: bool,
     /// Whether it is to cast a shadow.
     pub casts_shadow: bool,
+}
+
+impl Instance {
+    /// What multiplies its diffuse reflectance at a vertex of its mesh.
+    pub(crate) fn color(&self, vertex: usize) -> Vec3 {
+        self.mesh.colors.get(vertex).copied().filter(|_| self.has_colors).unwrap_or(Vec3::ONE)
+    }
 }

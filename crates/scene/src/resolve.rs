@@ -190,7 +190,8 @@ fn add(scene: &mut Scene, draft: ObjectDraft, model: Option<&Model>, shared: &mu
             let material = own.unwrap_or_else(|| shared.default_material(&mut scene.materials));
             let mesh = shared.mesh(primitive);
             let primitive = Some(primitive);
-            scene.instances.push(Instance { object, node: None, mesh, primitive, material, casts_shadow });
+            let has_colors = false;
+            scene.instances.push(Instance { object, node: None, mesh, primitive, material, has_colors, casts_shadow });
         }
         (MeshDraft::File(..), Some(model)) => {
             let first = match own {
@@ -201,7 +202,9 @@ fn add(scene: &mut Scene, draft: ObjectDraft, model: Option<&Model>, shared: &mu
                 let material = own.or(part.material.map(|m| first + m));
                 let material = material.unwrap_or_else(|| shared.default_material(&mut scene.materials));
                 let (node, mesh) = (Some(part.node), Arc::clone(&part.mesh));
-                scene.instances.push(Instance { object, node, mesh, primitive: None, material, casts_shadow });
+                let has_colors = own.is_none() && !mesh.colors.is_empty();
+                let primitive = None;
+                scene.instances.push(Instance { object, node, mesh, primitive, material, has_colors, casts_shadow });
             }
         }
         (MeshDraft::File(..), None) => {}

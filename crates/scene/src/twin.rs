@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3};
 use tyndall_shaders::scene as twin;
 
 use crate::frame::{Frame, FrameLight, View};
-use crate::model::{Instance, LightKind, Material, Texture, Wrap};
+use crate::model::{Filter, Instance, LightKind, Material, Texture, Wrap};
 use crate::scene::Scene;
 
 impl Scene {
@@ -62,6 +62,7 @@ fn triangles(instance: &Instance, transform: DAffine3) -> impl Iterator<Item = t
             position: transform.transform_point3(mesh.positions[index].as_dvec3()),
             normal: (normals * mesh.normals[index].as_dvec3()).normalize(),
             uv: mesh.uvs[index].as_dvec2(),
+            color: instance.color(index).as_dvec3(),
         }
     };
     mesh.triangles.iter().map(move |&[a, b, c]| {
@@ -81,6 +82,10 @@ fn texture(texture: &Texture) -> twin::Texture {
         Wrap::Clamp => twin::Wrap::Clamp,
         Wrap::Mirror => twin::Wrap::Mirror,
     };
+    let filter = match texture.filter {
+        Filter::Linear => twin::Filter::Linear,
+        Filter::Nearest => twin::Filter::Nearest,
+    };
     let rgb = |texel: &u32| {
         let [r, g, b, _] = texel.to_le_bytes();
         [r, g, b]
@@ -89,6 +94,7 @@ fn texture(texture: &Texture) -> twin::Texture {
         width: texture.width,
         height: texture.height,
         wrap: texture.wrap.map(wrap),
+        filter,
         texels: texture.texels.iter().map(rgb).collect(),
     }
 }

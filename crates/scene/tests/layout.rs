@@ -60,7 +60,7 @@ fn structs_match_the_shader() {
 #[test]
 fn lists_start_with_the_header() {
     let (_, module) = wgsl();
-    for name in ["Lights", "Vertices", "Triangles", "Objects", "Materials", "Textures"] {
+    for name in ["Lights", "Vertices", "VertexColors", "Triangles", "Objects", "Materials", "Textures"] {
         let (members, _) = of_shader(&module, name);
         assert_eq!(members[..4], of_rust(Type::of::<Header>().members), "{name}");
         assert_eq!((members[4].0.as_str(), members[4].1, members.len()), ("items", size_of::<Header>(), 5), "{name}");
@@ -83,6 +83,7 @@ fn constants_match_the_shader() {
         "WRAP_REPEAT: u32 = 0u",
         "WRAP_CLAMP: u32 = 1u",
         "WRAP_MIRROR: u32 = 2u",
+        "SAMPLE_NEAREST: u32 = 16u",
     ] {
         assert!(source.contains(&format!("const {constant};")), "{constant}");
     }

@@ -67,7 +67,7 @@ fn descriptor() -> PassDescriptor {
         ]),
         params: Table::new(),
         presets: Vec::new(),
-        scene: ["camera", "materials", "objects", "texels", "textures", "triangles", "vertices"]
+        scene: ["camera", "materials", "objects", "texels", "textures", "triangles", "vertex_colors", "vertices"]
             .map(str::to_owned)
             .into(),
         side_effect: false,

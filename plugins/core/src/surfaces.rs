@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 use tyndall_plugin::{Outputs, Pixel, ReferenceInput, rgba};
 use tyndall_shaders::colour::linear_from_srgb;
 use tyndall_shaders::ray::Ray;
-use tyndall_shaders::scene::{Camera, Surfaces, Texture, Triangle, Wrap};
+use tyndall_shaders::scene::{Camera, Filter, Surfaces, Texture, Triangle, Wrap};
 
 /// Depth buffer times distance along the view axis, m.
 const RASTER_DEPTH: f64 = 1e-6;
@@ -109,26 +109,30 @@ fn seen(surfaces: &Surfaces, ray: &Ray, hit: Option<&Hit>) -> Seen {
     let uv = part_a * a.uv + part_b * b.uv + part_c * c.uv;
     let material = &surfaces.materials[triangle.material];
     let texture = material.texture.map_or(DVec3::ONE, |texture| color_at(&surfaces.textures[texture], uv));
-    let [r, g, b] = (material.diffuse * texture).to_array();
+    let color = part_a * a.color + part_b * b.color + part_c * c.color;
+    let [red, green, blue] = (material.diffuse * texture * color).to_array();
     let [sr, sg, sb] = material.specular.to_array();
     Seen {
         normal: side * normal,
-        reflected: [r, g, b, f64::from(material.shininess_rank)],
+        reflected: [red, green, blue, f64::from(material.shininess_rank)],
         shiny: [sr, sg, sb, material.shininess],
     }
 }
 
-/// Linear between the centres of the four nearest texels, of linear light.
+/// The nearest texel, or linear between the centres of the four nearest, of linear light.
 fn color_at(texture: &Texture, uv: DVec2) -> DVec3 {
-    let at = uv * DVec2::new(f64::from(texture.width), f64::from(texture.height)) - 0.5;
-    let corner = at.floor();
-    let part = at - corner;
+    let place = uv * DVec2::new(f64::from(texture.width), f64::from(texture.height));
+    let corner = if texture.filter == Filter::Nearest { place.floor() } else { (place - 0.5).floor() };
+    let part = place - 0.5 - corner;
     let texel = |right: f64, down: f64| {
         let x = wrapped(corner.x + right, texture.width, texture.wrap[0]);
         let y = wrapped(corner.y + down, texture.height, texture.wrap[1]);
         let texel = texture.texels[(y * texture.width + x) as usize];
         DVec3::from_array(texel.map(|code| linear_from_srgb(f64::from(code) / 255.0)))
     };
+    if texture.filter == Filter::Nearest {
+        return texel(0.0, 0.0);
+    }
     let top = texel(0.0, 0.0).lerp(texel(1.0, 0.0), part.x);
     let bottom = texel(0.0, 1.0).lerp(texel(1.0, 1.0), part.x);
     top.lerp(bottom, part.y)

@@ -153,7 +153,8 @@ fn write_frame(running: &Running<'_>, verb: &Render, outputs: &[Output], frame: 
 /// What `--dump` writes of a frame.
 fn dumped<'a>(verb: &'a Render, graph: &'a Graph, frame: u32) -> impl Iterator<Item = (PortRef, PathBuf)> + 'a {
     let many = verb.frames.is_some_and(|(first, end)| end - first > 1);
-    let folder = verb.dump.as_ref().map(|folder| if many { folder.join(format!("{frame:04}")) } else { folder.clone() });
+    let folder =
+        verb.dump.as_ref().map(|folder| if many { folder.join(format!("{frame:04}")) } else { folder.clone() });
     folder.into_iter().flat_map(move |folder| {
         graph.written_ports().map(move |port| {
             let suffix = if is_picture(graph, port) { "exr" } else { "npy" };

@@ -19,6 +19,7 @@ mod froxels;
 mod fuzz;
 mod image_coverage;
 mod image_tests;
+mod models;
 mod modes;
 mod orders;
 mod outputs;

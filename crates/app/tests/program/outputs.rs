@@ -235,7 +235,9 @@ fn two_outputs_do_not_go_to_one_file() {
         assert!(ended.err.contains("two outputs go to "), "{one} {other}: {}", ended.err);
         assert!(desk.files("sub").is_empty() && !absolute.exists());
     };
-    for other in ["same.exr", "./same.exr", ".//same.exr", "sub/../same.exr", "new/../same.exr", absolute.to_str().unwrap()] {
+    for other in
+        ["same.exr", "./same.exr", ".//same.exr", "sub/../same.exr", "new/../same.exr", absolute.to_str().unwrap()]
+    {
         pair("same.exr", other, &[]);
     }
     pair("sub/a.exr", "link/a.exr", &[]);

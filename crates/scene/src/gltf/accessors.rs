@@ -4,10 +4,11 @@ use gltf::json::Root;
 use gltf::json::accessor::{Accessor, ComponentType, Type};
 use gltf::json::validation::Checked::Valid;
 
+use super::document::LeftOut;
 use super::fault::{Checked, Fault};
 use crate::codes::{GLTF_ACCESSOR_TYPE, GLTF_BUFFER_RANGE, GLTF_NOT_FINITE, GLTF_REFERENCE, GLTF_TOO_LARGE};
 
-/// Largest number of elements of an accessor that no buffer backs (all zero but for its sparse elements).
+/// Largest number of elements of an accessor that no buffer backs: all zero, but for its sparse elements (glTF 2.0, 5.1.1).
 const MOST_ZEROED: usize = 1 << 20;
 
 /// A component type and whether integers are normalised to 0..1 or −1..1.
@@ -35,6 +36,8 @@ pub(crate) const SIGNED: &[Kind] = &[
     (ComponentType::U8, true),
     (ComponentType::U16, true),
 ];
+/// Colours.
+pub(crate) const COLOR: &[Kind] = &[(ComponentType::F32, false), (ComponentType::U8, true), (ComponentType::U16, true)];
 /// Texture coordinates: as positions.
 pub(crate) const TEXCOORD: &[Kind] = POSITION;
 
@@ -57,6 +60,7 @@ impl<'a> Elements<'a> {
 #[derive(Clone, Copy)]
 pub(crate) struct Data<'a> {
     pub root: &'a Root,
+    pub left_out: &'a LeftOut,
     pub buffers: &'a [Vec<u8>],
 }
 
@@ -115,6 +119,14 @@ impl<'a> Data<'a> {
         }
     }
 
+    /// Finite numbers, three per element; a fourth is left out.
+    pub fn triples(&self, index: usize, kinds: &[Kind]) -> Checked<Vec<[f32; 3]>> {
+        if self.accessor(index)?.0.type_ == Valid(Type::Vec4) {
+            return Ok(self.floats::<4>(index, kinds)?.into_iter().map(|[x, y, z, _]| [x, y, z]).collect());
+        }
+        self.floats::<3>(index, kinds)
+    }
+
     /// Whole numbers, one per element.
     pub fn indices(&self, index: usize) -> Checked<Vec<u32>> {
         let (accessor, count) = self.accessor(index)?;
@@ -137,9 +149,6 @@ impl<'a> Data<'a> {
     /// Where the elements lie; nothing for an accessor without a buffer view.
     fn elements(&self, accessor: &Accessor, index: usize, count: usize, size: usize) -> Checked<Option<Elements<'a>>> {
         let Some(view) = accessor.buffer_view else {
-            if accessor.sparse.is_none() {
-                return Err(Fault::new(GLTF_REFERENCE, format!("accessor {index} has neither bufferView nor sparse")));
-            }
             if count > MOST_ZEROED {
                 let message = format!("accessor {index}: {count} elements without a bufferView, at most {MOST_ZEROED}");
                 return Err(Fault::new(GLTF_TOO_LARGE, message));

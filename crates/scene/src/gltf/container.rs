@@ -1,12 +1,7 @@
-//! The outermost layer of a glTF file: a `.glb` container or plain JSON, and what the file requires of its reader.
-
-use gltf::json::Root;
+//! The outermost layer of a glTF file: a `.glb` container or plain JSON.
 
 use super::fault::{Checked, Fault};
-use crate::codes::{GLTF_CONTAINER, GLTF_EXTENSION, GLTF_SYNTAX, GLTF_VERSION};
-
-/// What `extensionsRequired` may hold.
-const SUPPORTED: &[&str] = &["KHR_lights_punctual", "KHR_texture_transform", "KHR_mesh_quantization"];
+use crate::codes::{GLTF_CONTAINER, GLTF_VERSION};
 
 /// Splits a file into its JSON and the binary chunk that a `.glb` may have.
 pub(crate) fn split(bytes: &[u8]) -> Checked<(&[u8], Option<&[u8]>)> {
@@ -25,7 +20,11 @@ pub(crate) fn split(bytes: &[u8]) -> Checked<(&[u8], Option<&[u8]>)> {
         return Err(broken(format!("the header announces {announced} bytes, the file has {}", bytes.len())));
     }
     let (json, next) = chunk(&bytes[..announced], 12, *b"JSON")?;
-    let json = json.ok_or_else(|| broken("the first chunk is not JSON".into()))?;
+    let mut json = json.ok_or_else(|| broken("the first chunk is not JSON".into()))?;
+    // Chunks are padded with spaces, but some exporters pad with zeros.
+    while let Some(rest) = json.strip_suffix(b"\0") {
+        json = rest;
+    }
     let binary = if next < announced { chunk(&bytes[..announced], next, *b"BIN\0")?.0 } else { None };
     Ok((json, binary))
 }
@@ -42,21 +41,4 @@ fn chunk(bytes: &[u8], at: usize, kind: [u8; 4]) -> Checked<(Option<&[u8]>, usiz
         Fault::new(GLTF_CONTAINER, message)
     })?;
     Ok(((header[4..] == kind).then_some(body), start + length))
-}
-
-/// Reads the JSON and checks version and required extensions.
-pub(crate) fn parse(json: &[u8]) -> Checked<Root> {
-    let root = Root::from_slice(json).map_err(|error| {
-        let what =
-            if json.is_empty() { "the file is empty".to_owned() } else { format!("not readable as glTF: {error}") };
-        Fault::new(GLTF_SYNTAX, what)
-    })?;
-    let needed = root.asset.min_version.as_deref().unwrap_or(&root.asset.version);
-    if needed != "2.0" {
-        return Err(Fault::new(GLTF_VERSION, format!("asset: version {needed:?}; only \"2.0\" is read")));
-    }
-    match root.extensions_required.iter().find(|name| !SUPPORTED.contains(&name.as_str())) {
-        Some(name) => Err(Fault::new(GLTF_EXTENSION, format!("extensionsRequired: {name:?} is not supported"))),
-        None => Ok(root),
-    }
 }

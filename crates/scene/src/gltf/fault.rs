@@ -2,8 +2,12 @@
 
 use tyndall_document::{Code, Diagnostic, Diagnostics, Place};
 
-/// Faults, and warnings, reported of one file; a broken exporter repeats one mistake for every mesh.
+use crate::codes::{GLTF_IGNORED, GLTF_METAL, GLTF_MODE};
+
+/// Faults reported of one file; a broken exporter repeats one mistake for every mesh.
 const MOST_FAULTS: usize = 20;
+/// Elements that a warning names; of others it gives the number.
+const MOST_NAMED: usize = 3;
 
 /// A mistake: a code, the element, and what is wrong with it.
 #[derive(Debug)]
@@ -44,27 +48,76 @@ impl<T> At<T> for Checked<T> {
 
 /// `mesh 3 "roof"`, or `mesh 3` where it has no name.
 pub(crate) fn element(kind: &str, index: usize, name: Option<&str>) -> String {
+    format!("{kind} {}", numbered(index, name))
+}
+
+/// `3 "roof"`, or `3` where it has no name.
+pub(crate) fn numbered(index: usize, name: Option<&str>) -> String {
     match name {
         Some(name) if !name.is_empty() => {
             let short: String = name.chars().take(40).collect();
-            format!("{kind} {index} {short:?}")
+            format!("{index} {short:?}")
         }
-        _ => format!("{kind} {index}"),
+        _ => index.to_string(),
     }
 }
 
-/// Collects the faults and warnings of one file.
+/// Something that a file may have and that is not drawn as the file says.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Unread {
+    code: Code,
+    /// Of which kind of element, in the singular.
+    kind: &'static str,
+    what: &'static str,
+}
+
+impl Unread {
+    const fn new(kind: &'static str, what: &'static str) -> Self {
+        Self { code: GLTF_IGNORED, kind, what }
+    }
+
+    pub const SKIN: Self = Self::new("node", "skin");
+    pub const ORTHOGRAPHIC: Self = Self::new("camera", "orthographic projection");
+    pub const MORPH_TARGETS: Self = Self::new("primitive", "morph targets");
+    pub const MORPH_WEIGHTS: Self = Self::new("channel", "weights of morph targets");
+    pub const NO_TARGET: Self = Self::new("channel", "no target node");
+    pub const UNKNOWN_PATH: Self = Self::new("channel", "a path other than translation, rotation and scale");
+    pub const ANIMATED_TWICE: Self = Self::new("channel", "a property that another channel animates");
+    pub const ALPHA: Self = Self::new("material", "alpha (drawn opaque)");
+    pub const EMISSION: Self = Self::new("material", "emission");
+    pub const NORMAL_MAP: Self = Self::new("material", "normal map");
+    pub const OCCLUSION: Self = Self::new("material", "occlusion");
+    pub const METALLIC_COORDINATES: Self =
+        Self::new("material", "texture coordinates of the metallic texture (its mean is used)");
+    pub const POINTS_AND_LINES: Self = Self { code: GLTF_MODE, ..Self::new("primitive", "points or lines") };
+    pub const METAL: Self =
+        Self { code: GLTF_METAL, ..Self::new("material", "wholly metallic, no diffuse reflectance") };
+
+    /// What becomes of it, and what a user can do about that.
+    fn outcome(code: Code) -> (&'static str, Option<&'static str>) {
+        match code {
+            GLTF_MODE => ("not drawn", None),
+            GLTF_METAL => ("drawn black", Some("name a `material` at the object in the scene file")),
+            _ => ("not read", None),
+        }
+    }
+}
+
+/// Collects the faults of one file, and what is not read of it.
 pub(crate) struct Report {
     /// As the user knows the file.
     pub name: String,
     out: Diagnostics,
     faults: usize,
-    warnings: usize,
+    /// Each with the elements that have it.
+    unread: Vec<(Unread, Vec<String>)>,
+    extensions: Vec<String>,
 }
 
 impl Report {
     pub fn new(name: &str) -> Report {
-        Report { name: name.to_owned(), out: Diagnostics::default(), faults: 0, warnings: 0 }
+        let (unread, extensions) = (Vec::new(), Vec::new());
+        Report { name: name.to_owned(), out: Diagnostics::default(), faults: 0, unread, extensions }
     }
 
     pub fn fault(&mut self, fault: Fault) {
@@ -74,12 +127,17 @@ impl Report {
         }
     }
 
-    pub fn warn(&mut self, fault: Fault) {
-        self.warnings += 1;
-        if self.warnings > MOST_FAULTS {
-            return;
+    /// An element (its number and name) has something that is not read.
+    pub fn unread(&mut self, unread: Unread, element: String) {
+        match self.unread.iter_mut().find(|(other, _)| *other == unread) {
+            Some((_, elements)) => elements.push(element),
+            None => self.unread.push((unread, vec![element])),
         }
-        self.out.push(Diagnostic::warning(fault.code, Place::File(self.name.clone()), fault.text()));
+    }
+
+    /// The file uses extensions that are not read.
+    pub fn unread_extensions(&mut self, names: impl IntoIterator<Item = String>) {
+        self.extensions.extend(names);
     }
 
     /// The value, or nothing where it is a fault, which is reported.
@@ -91,7 +149,35 @@ impl Report {
         self.faults > 0
     }
 
-    pub fn finish(self) -> Diagnostics {
+    /// Everything that is wrong, and one warning for all that is not read.
+    pub fn finish(mut self) -> Diagnostics {
+        for code in [GLTF_IGNORED, GLTF_MODE, GLTF_METAL] {
+            let unread = self.unread.iter().filter(|(unread, _)| unread.code == code);
+            let mut parts: Vec<String> = unread.map(|(unread, elements)| counted(unread, elements)).collect();
+            if code == GLTF_IGNORED && !self.extensions.is_empty() {
+                parts.push(format!("extensions: {}", self.extensions.join(", ")));
+            }
+            if parts.is_empty() {
+                continue;
+            }
+            let (outcome, suggestion) = Unread::outcome(code);
+            let message = format!("{outcome}: {}", parts.join("; "));
+            let mut warning = Diagnostic::warning(code, Place::File(self.name.clone()), message);
+            warning.suggestion = suggestion.map(str::to_owned);
+            self.out.push(warning);
+        }
         self.out
+    }
+}
+
+/// `material 0 "roof": emission`, or `7 materials (0 "roof", 1 "wall", 2 "door", …): emission`.
+fn counted(Unread { kind, what, .. }: &Unread, elements: &[String]) -> String {
+    match elements {
+        [element] => format!("{kind} {element}: {what}"),
+        _ => {
+            let named = elements[..elements.len().min(MOST_NAMED)].join(", ");
+            let more = if elements.len() > MOST_NAMED { ", …" } else { "" };
+            format!("{} {kind}s ({named}{more}): {what}", elements.len())
+        }
     }
 }

@@ -9,9 +9,9 @@ use gltf::json::extensions::scene::khr_lights_punctual::{Light as JsonLight, Typ
 use gltf::json::validation::Checked::Valid;
 
 use super::accessors::absent;
-use super::fault::{At, Checked, Fault, Report, element};
+use super::fault::{At, Checked, Fault, Report, Unread, element, numbered};
 use super::nodes::Hierarchy;
-use crate::codes::{GLTF_CAMERA, GLTF_IGNORED, GLTF_LIGHT};
+use crate::codes::{GLTF_CAMERA, GLTF_LIGHT};
 use crate::model::LightKind;
 
 /// A light at a node.
@@ -88,8 +88,7 @@ pub(crate) fn camera(root: &Root, hierarchy: &Hierarchy, report: &mut Report) ->
                 report.fault(Fault::new(GLTF_CAMERA, format!("{}: yfov {angle} does not lie in 0..π", label())));
             }
             (Valid(CameraType::Orthographic), _) => {
-                let message = format!("{}: orthographic cameras are ignored", label());
-                report.warn(Fault::new(GLTF_IGNORED, message));
+                report.unread(Unread::ORTHOGRAPHIC, numbered(number, camera.name.as_deref()));
             }
             _ => report.fault(Fault::new(GLTF_CAMERA, format!("{}: neither perspective nor orthographic", label()))),
         }

@@ -4,19 +4,19 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use glam::DVec3;
-use gltf::json::material::AlphaMode;
-use gltf::json::texture::{Info, WrappingMode};
+use gltf::json::material::{AlphaMode, Material as JsonMaterial};
+use gltf::json::texture::{Info, MagFilter, Sampler, WrappingMode};
 use gltf::json::validation::Checked::Valid;
 use image::RgbaImage;
 use tyndall_shaders::colour::{linear_from_srgb, srgb_from_linear};
 
 use super::accessors::{Data, absent};
-use super::fault::{At, Checked, Fault, Report, element};
+use super::fault::{At, Checked, Fault, Report, Unread, element, numbered};
 use super::files::Folder;
 use super::images::Images;
 use super::meshes::UvSource;
-use crate::codes::{GLTF_IGNORED, GLTF_MATERIAL, GLTF_METAL};
-use crate::model::{Material, Texture, Wrap};
+use crate::codes::{GLTF_MATERIAL, GLTF_REFERENCE};
+use crate::model::{Filter, Material, Texture, Wrap};
 
 /// The materials of a file that are drawn.
 #[derive(Default)]
@@ -29,8 +29,11 @@ pub(crate) struct Materials {
     pub textures: Vec<Texture>,
 }
 
-/// Where a texture comes from: base colour image, metallic image with the factor's bits, wrap modes.
-type Key = (Option<usize>, Option<(usize, u32)>, [Wrap; 2]);
+/// How a texture is read: outside of 0..1 along u and v, and between texels.
+type Sampling = ([Wrap; 2], Filter);
+
+/// Where a texture comes from: base colour image, metallic image with the factor's bits, and how it is read.
+type Key = (Option<usize>, Option<(usize, u32)>, Sampling);
 
 struct Reader<'a> {
     data: Data<'a>,
@@ -61,11 +64,11 @@ pub(crate) fn read(data: Data, folder: &mut Folder, used: &BTreeSet<usize>, repo
     result
 }
 
-/// A texture of a material: image, wrap modes, texture coordinates.
+/// A texture of a material: image, how it is read, texture coordinates.
 #[derive(Clone, Copy, PartialEq)]
 struct Sampled {
     image: usize,
-    wrap: [Wrap; 2],
+    sampling: Sampling,
     uv: UvSource,
 }
 
@@ -79,10 +82,8 @@ impl Reader<'_> {
             *slot = unit_interval("baseColorFactor", value)?;
         }
         let metallic = unit_interval("metallicFactor", pbr.metallic_factor.0)?;
-        let label = || element("material", index, json.name.as_deref());
-        if json.alpha_mode != Valid(AlphaMode::Opaque) {
-            report.warn(Fault::new(GLTF_IGNORED, format!("{}: alpha is ignored, it is drawn opaque", label())));
-        }
+        let mut unread = |what| report.unread(what, numbered(index, json.name.as_deref()));
+        unread_of(json).for_each(&mut unread);
         let base = self.sampled(pbr.base_color_texture.as_ref(), "baseColorTexture")?;
         let metal = if metallic > 0.0 {
             self.sampled(pbr.metallic_roughness_texture.as_ref(), "metallicRoughnessTexture")?
@@ -94,26 +95,23 @@ impl Reader<'_> {
         let (texture, uv) = match (base, metal) {
             (base, None) => {
                 diffuse = constant_metal(diffuse, metallic);
-                let texture = base.map(|base| self.texture((Some(base.image), None, base.wrap))).transpose()?;
+                let texture = base.map(|base| self.texture((Some(base.image), None, base.sampling))).transpose()?;
                 (texture, base.map(|base| base.uv))
             }
             (Some(base), Some(metal)) if base.uv != metal.uv => {
                 let mean = mean_blue(self.images.get(metal.image)?.as_ref());
-                let message = "base colour and metallic have different texture coordinates; the mean metallic is used";
-                report.warn(Fault::new(GLTF_IGNORED, format!("{}: {message}", label())));
+                unread(Unread::METALLIC_COORDINATES);
                 diffuse = constant_metal(diffuse, metallic * mean);
-                (Some(self.texture((Some(base.image), None, base.wrap))?), Some(base.uv))
+                (Some(self.texture((Some(base.image), None, base.sampling))?), Some(base.uv))
             }
             (base, Some(metal)) => {
                 let key = (base.map(|b| b.image), Some((metal.image, (metallic as f32).to_bits())));
                 let sampled = base.unwrap_or(metal);
-                (Some(self.texture((key.0, key.1, sampled.wrap))?), Some(sampled.uv))
+                (Some(self.texture((key.0, key.1, sampled.sampling))?), Some(sampled.uv))
             }
         };
         if diffuse == DVec3::ZERO && metallic == 1.0 {
-            let message = "is wholly metallic, has no diffuse reflectance and is drawn black; an object of the scene \
-                           file may name a material instead";
-            report.warn(Fault::new(GLTF_METAL, format!("{} {message}", label())));
+            unread(Unread::METAL);
         }
         Ok((Material { diffuse, texture, ..Material::default() }, uv))
     }
@@ -127,20 +125,17 @@ impl Reader<'_> {
         let root = self.data.root;
         let index = info.index.value();
         let texture = root.textures.get(index).ok_or_else(|| absent("texture", index))?;
+        let label = || element("texture", index, texture.name.as_deref());
+        if let Some(extensions) = self.data.left_out.sources.get(&index) {
+            return Err(no_source(extensions)).at(label);
+        }
         let image = texture.source.value();
         if image >= root.images.len() {
-            return Err(absent("image", image)).at(|| element("texture", index, texture.name.as_deref()));
+            return Err(absent("image", image)).at(label);
         }
-        let wrap = match texture.sampler.map(|s| s.value()) {
-            None => [Wrap::Repeat; 2],
-            Some(index) => {
-                let sampler = root.samplers.get(index).ok_or_else(|| absent("sampler", index))?;
-                [sampler.wrap_s, sampler.wrap_t].map(|mode| match mode {
-                    Valid(WrappingMode::ClampToEdge) => Wrap::Clamp,
-                    Valid(WrappingMode::MirroredRepeat) => Wrap::Mirror,
-                    _ => Wrap::Repeat,
-                })
-            }
+        let sampling = match texture.sampler.map(|s| s.value()) {
+            None => Sampling::default(),
+            Some(index) => sampling(root.samplers.get(index).ok_or_else(|| absent("sampler", index))?),
         };
         let transform = info.extensions.as_ref().and_then(|e| e.texture_transform.as_ref());
         let uv = match transform {
@@ -150,26 +145,61 @@ impl Reader<'_> {
         if !uv.transform.is_finite() {
             return Err(Fault::new(GLTF_MATERIAL, "KHR_texture_transform is not finite"));
         }
-        Ok(Sampled { image, wrap, uv })
+        Ok(Sampled { image, sampling, uv })
     }
 
     /// The texture of a base colour image whose texels are multiplied by 1 − metallic; of both, either may be absent.
-    fn texture(&mut self, (base, metal, wrap): Key) -> Checked<usize> {
-        let key = (base, metal, wrap);
+    fn texture(&mut self, key: Key) -> Checked<usize> {
+        let (base, metal, sampling) = key;
         if let Some(&known) = self.known.get(&key) {
             return Ok(known);
         }
         let base = base.map(|image| self.images.get(image)).transpose()?;
         let metal = metal.map(|(image, factor)| Ok((self.images.get(image)?, f32::from_bits(factor)))).transpose()?;
-        self.textures.push(baked(base.as_ref(), metal.as_ref(), wrap));
+        self.textures.push(baked(base.as_ref(), metal.as_ref(), sampling));
         self.known.insert(key, self.textures.len() - 1);
         Ok(self.textures.len() - 1)
     }
 }
 
-/// Wrap modes as `Texture.wrap` of `scene.wgsl`.
-pub(crate) fn encoded_wrap(wrap: [Wrap; 2]) -> u32 {
-    wrap[0] as u32 | (wrap[1] as u32) << 2
+/// What of a material is not read, whatever its textures are.
+fn unread_of(material: &JsonMaterial) -> impl Iterator<Item = Unread> {
+    let emits = material.emissive_factor.0 != [0.0; 3];
+    [
+        (material.alpha_mode != Valid(AlphaMode::Opaque), Unread::ALPHA),
+        (emits, Unread::EMISSION),
+        (material.normal_texture.is_some(), Unread::NORMAL_MAP),
+        (material.occlusion_texture.is_some(), Unread::OCCLUSION),
+    ]
+    .into_iter()
+    .filter_map(|(is, what)| is.then_some(what))
+}
+
+/// A texture may have its picture in a form that only an extension can name.
+fn no_source(extensions: &[String]) -> Fault {
+    let unread = match extensions {
+        [] => String::new(),
+        [one] => format!(" ({one} is not read)"),
+        _ => format!(" ({} are not read)", extensions.join(" and ")),
+    };
+    Fault::new(GLTF_REFERENCE, format!("has no source{unread}"))
+}
+
+/// Where nothing is drawn smaller than it is, the filter for what is drawn larger is the only one.
+fn sampling(sampler: &Sampler) -> Sampling {
+    let wrap = [sampler.wrap_s, sampler.wrap_t].map(|mode| match mode {
+        Valid(WrappingMode::ClampToEdge) => Wrap::Clamp,
+        Valid(WrappingMode::MirroredRepeat) => Wrap::Mirror,
+        _ => Wrap::Repeat,
+    });
+    let nearest = matches!(sampler.mag_filter, Some(Valid(MagFilter::Nearest)));
+    (wrap, if nearest { Filter::Nearest } else { Filter::Linear })
+}
+
+/// `Texture.sampling` of `scene.wgsl`.
+pub(crate) fn encoded_sampling(texture: &Texture) -> u32 {
+    let nearest = u32::from(texture.filter == Filter::Nearest);
+    texture.wrap[0] as u32 | (texture.wrap[1] as u32) << 2 | nearest << 4
 }
 
 fn unit_interval(name: &str, value: f32) -> Checked<f64> {
@@ -186,7 +216,7 @@ fn mean_blue(image: &RgbaImage) -> f64 {
     sum as f64 / 255.0 / f64::from(image.width() * image.height())
 }
 
-fn baked(base: Option<&Arc<RgbaImage>>, metal: Option<&(Arc<RgbaImage>, f32)>, wrap: [Wrap; 2]) -> Texture {
+fn baked(base: Option<&Arc<RgbaImage>>, metal: Option<&(Arc<RgbaImage>, f32)>, (wrap, filter): Sampling) -> Texture {
     let (width, height) = base.or(metal.map(|m| &m.0)).map_or((1, 1), |image| image.dimensions());
     let linear: [f64; 256] = std::array::from_fn(|i| linear_from_srgb(i as f64 / 255.0));
     let mut texels = Vec::with_capacity(width as usize * height as usize);
@@ -207,7 +237,7 @@ fn baked(base: Option<&Arc<RgbaImage>>, metal: Option<&(Arc<RgbaImage>, f32)>, w
             texels.push(u32::from_le_bytes(texel));
         }
     }
-    Texture { width, height, wrap, texels }
+    Texture { width, height, wrap, filter, texels }
 }
 
 #[cfg(test)]
@@ -219,7 +249,7 @@ mod tests {
     fn metallic_texels_darken_in_linear_light() {
         let base = Arc::new(RgbaImage::from_pixel(4, 2, Rgba([200, 100, 0, 255])));
         let metal = (Arc::new(RgbaImage::from_fn(2, 1, |x, _| Rgba([9, 9, x as u8 * 255, 9]))), 0.5);
-        let texture = baked(Some(&base), Some(&metal), [Wrap::Repeat; 2]);
+        let texture = baked(Some(&base), Some(&metal), Sampling::default());
         let texel = |x: usize| texture.texels[x].to_le_bytes();
         assert_eq!(texel(1), [200, 100, 0, 255]);
         let half = |v: u8| srgb_from_linear(linear_from_srgb(f64::from(v) / 255.0) / 2.0) * 255.0;

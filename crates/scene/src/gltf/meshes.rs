@@ -4,7 +4,7 @@ use glam::{DAffine2, DMat2, DVec2, Vec2, Vec3};
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked::Valid;
 
-use super::accessors::{Data, POSITION, SIGNED, TEXCOORD};
+use super::accessors::{COLOR, Data, POSITION, SIGNED, TEXCOORD};
 use super::fault::{At, Checked, Fault};
 use crate::codes::{GLTF_ACCESSOR_TYPE, GLTF_INDEX_RANGE, GLTF_MODE, GLTF_REFERENCE, GLTF_TOO_LARGE};
 use crate::mesh::Mesh;
@@ -70,8 +70,12 @@ pub(crate) fn mesh(
         Some(uv) => uvs(data, attribute(Semantic::TexCoords(uv.set)), uv, vertices)?,
         None => vec![Vec2::ZERO; vertices],
     };
-    let mut mesh =
-        Mesh { positions: positions.into_iter().map(Vec3::from_array).collect(), normals: Vec::new(), uvs, triangles };
+    let positions = positions.into_iter().map(Vec3::from_array).collect();
+    let colors = match attribute(Semantic::Colors(0)) {
+        Some(index) => colors(data, index, vertices).at(|| "COLOR_0".into())?,
+        None => Vec::new(),
+    };
+    let mut mesh = Mesh { positions, normals: Vec::new(), uvs, colors, triangles };
     mesh.turn_triangles();
     match attribute(Semantic::Normals) {
         None => {
@@ -87,6 +91,14 @@ pub(crate) fn mesh(
         }
     }
     Ok(Some(mesh))
+}
+
+/// Whether the positions of a primitive stand in a buffer.
+pub(crate) fn has_bytes(data: Data, primitive: &Primitive) -> bool {
+    let position = primitive.attributes.get(&Valid(Semantic::Positions));
+    position
+        .and_then(|index| data.root.accessors.get(index.value()))
+        .is_some_and(|accessor| accessor.buffer_view.is_some() || accessor.sparse.is_some())
 }
 
 /// The number of elements, taken off the budget before they are read.
@@ -113,6 +125,15 @@ fn uvs(data: Data, accessor: Option<usize>, uv: UvSource, vertices: usize) -> Ch
     let values = data.floats::<2>(accessor, TEXCOORD).at(label)?;
     let transform = |uv_of: [f32; 2]| uv.transform.transform_point2(Vec2::from_array(uv_of).as_dvec2()).as_vec2();
     Ok(values.into_iter().map(transform).collect())
+}
+
+/// Linear factors of the base colour (glTF 2.0, 3.9.2); alpha is drawn opaque.
+fn colors(data: Data, accessor: usize, vertices: usize) -> Checked<Vec<Vec3>> {
+    same_count(data, accessor, vertices)?;
+    let values = data.triples(accessor, COLOR)?;
+    // A surface reflects what it gets and no more.
+    let reflectance = |value: [f32; 3]| Vec3::from_array(value).clamp(Vec3::ZERO, Vec3::ONE);
+    Ok(values.into_iter().map(reflectance).collect())
 }
 
 fn triangles(

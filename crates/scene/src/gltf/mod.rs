@@ -1,11 +1,12 @@
 //! glTF 2.0 files (`.glb`, `.gltf`): meshes, node transforms and their animation, base colour, punctual lights, cameras.
 //!
 //! The JSON is read with `gltf-json`; everything that an index, offset or count refers to is checked here, so that a
-//! broken or hostile file ends in a diagnostic that names the element. Not read: skins, morph targets, vertex colours,
-//! points and lines, alpha, emission; sparse accessors and quantised meshes are.
+//! broken or hostile file ends in a diagnostic that names the element. What a file has that is not read ([`Unread`]) is told
+//! in one warning.
 
 mod accessors;
 mod container;
+mod document;
 mod fault;
 mod files;
 mod images;
@@ -23,16 +24,17 @@ use gltf::json::{Mesh as JsonMesh, Root};
 use tyndall_document::Diagnostics;
 
 use self::accessors::{Data, absent};
-use self::fault::{At, Checked, Fault, Report, element};
+use self::document::Document;
+use self::fault::{At, Checked, Fault, Report, Unread, element, numbered};
 use self::files::Folder;
 use self::materials::Materials;
 use self::meshes::Budget;
-use crate::codes::{GLTF_BUFFER_RANGE, GLTF_IGNORED, GLTF_MODE, GLTF_REFERENCE};
+use crate::codes::{GLTF_BUFFER_RANGE, GLTF_EXTENSION, GLTF_REFERENCE};
 use crate::mesh::Mesh;
 use crate::model::{Material, Node, Texture};
 
 pub(crate) use self::lights::ModelLight;
-pub(crate) use self::materials::encoded_wrap;
+pub(crate) use self::materials::encoded_sampling;
 pub(crate) use self::meshes::MOST_ELEMENTS;
 pub(crate) use self::motion::Motion;
 
@@ -82,9 +84,11 @@ pub(crate) fn load(file: &Path, name: &str) -> Loaded {
 
 fn model(bytes: &[u8], folder: &mut Folder, report: &mut Report) -> Checked<Model> {
     let (json, binary) = container::split(bytes)?;
-    let root = container::parse(json)?;
+    let document = Document::read(json)?;
+    report.unread_extensions(document.unread_extensions());
+    let Document { root, left_out } = document;
     let buffers = buffers(&root, binary, folder)?;
-    let data = Data { root: &root, buffers: &buffers };
+    let data = Data { root: &root, left_out: &left_out, buffers: &buffers };
     let tracks = motion::tracks(data, report);
     let hierarchy = nodes::hierarchy(&root, tracks)?;
     let drawn: BTreeSet<usize> =
@@ -102,7 +106,7 @@ fn model(bytes: &[u8], folder: &mut Folder, report: &mut Report) -> Checked<Mode
             report.fault(Fault::new(GLTF_REFERENCE, format!("{}: mesh {mesh} does not exist", label())));
         }
         if json.skin.is_some() {
-            report.warn(Fault::new(GLTF_IGNORED, format!("{}: its skin is ignored", label())));
+            report.unread(Unread::SKIN, numbered(*index, json.name.as_deref()));
         }
         for (mesh, material) in meshes.get(&mesh).into_iter().flatten() {
             parts.push(Part { node, mesh: Arc::clone(mesh), material: *material });
@@ -124,17 +128,17 @@ fn meshes_of(data: Data, drawn: &BTreeSet<usize>, materials: &Materials, report:
         let Some(json) = data.root.meshes.get(index) else { continue };
         let primitives = meshes.entry(index).or_default();
         for number in 0..json.primitives.len() {
-            let label = || format!("{}, primitive {number}", element("mesh", index, json.name.as_deref()));
-            match primitive(data, json, number, materials, &mut budget).at(label) {
+            let mesh = element("mesh", index, json.name.as_deref());
+            let unread = |report: &mut Report, what| report.unread(what, format!("{number} of {mesh}"));
+            match primitive(data, (index, json), number, materials, &mut budget)
+                .at(|| format!("{mesh}, primitive {number}"))
+            {
                 Ok(Some(part)) => primitives.push(part),
-                Ok(None) => {
-                    let message = format!("{} has points or lines, which are not drawn", label());
-                    report.warn(Fault::new(GLTF_MODE, message));
-                }
+                Ok(None) => unread(report, Unread::POINTS_AND_LINES),
                 Err(fault) => report.fault(fault),
             }
             if json.primitives[number].targets.is_some() {
-                report.warn(Fault::new(GLTF_IGNORED, format!("{}: morph targets are ignored", label())));
+                unread(report, Unread::MORPH_TARGETS);
             }
         }
     }
@@ -145,12 +149,16 @@ type Drawn = (Arc<Mesh>, Option<usize>);
 
 fn primitive(
     data: Data,
-    mesh: &JsonMesh,
+    (index, mesh): (usize, &JsonMesh),
     number: usize,
     materials: &Materials,
     budget: &mut Budget,
 ) -> Checked<Option<Drawn>> {
     let json = &mesh.primitives[number];
+    if data.left_out.vertices.contains(&(index, number)) && !meshes::has_bytes(data, json) {
+        let message = "its vertices are compressed by KHR_draco_mesh_compression, which is not read";
+        return Err(Fault::new(GLTF_EXTENSION, message));
+    }
     let material = json.material.map(|m| m.value());
     if let Some(index) = material.filter(|&index| index >= data.root.materials.len()) {
         return Err(absent("material", index));

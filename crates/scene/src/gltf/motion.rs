@@ -7,9 +7,9 @@ use gltf::json::animation::{Channel, Interpolation, Property, Sampler};
 use gltf::json::validation::Checked::Valid;
 
 use super::accessors::{Data, FLOAT, SIGNED, absent};
-use super::fault::{At, Checked, Fault, Report, element};
+use super::fault::{At, Checked, Fault, Report, Unread, element};
 use crate::animate::segment;
-use crate::codes::{GLTF_ANIMATION, GLTF_IGNORED};
+use crate::codes::GLTF_ANIMATION;
 
 /// Values over time of one property.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,11 +104,25 @@ pub(crate) fn tracks(data: Data, report: &mut Report) -> BTreeMap<usize, Tracks>
     for (index, animation) in data.root.animations.iter().enumerate() {
         let label = element("animation", index, animation.name.as_deref());
         for (number, channel) in animation.channels.iter().enumerate() {
-            let label = || format!("{label}, channel {number}");
-            match self::channel(data, &animation.samplers, channel, &mut left).at(label) {
+            let unread = |report: &mut Report, what| report.unread(what, format!("{number} of {label}"));
+            let property = match channel.target.path {
+                // glTF 2.0, 5.5: such a channel should be ignored.
+                _ if data.left_out.targets.contains(&(index, number)) => Err(Unread::NO_TARGET),
+                Valid(Property::MorphTargetWeights) => Err(Unread::MORPH_WEIGHTS),
+                Valid(property) => Ok(property),
+                _ => Err(Unread::UNKNOWN_PATH),
+            };
+            let property = match property {
+                Ok(property) => property,
+                Err(what) => {
+                    unread(report, what);
+                    continue;
+                }
+            };
+            let of_channel = || format!("{label}, channel {number}");
+            match driven(data, &animation.samplers, (channel, property), &mut left).at(of_channel) {
                 Err(fault) => report.fault(fault),
-                Ok(None) => report.warn(Fault::new(GLTF_IGNORED, format!("{}: morph weights are ignored", label()))),
-                Ok(Some((node, property, track))) => {
+                Ok((node, track)) => {
                     let tracks = nodes.entry(node).or_default();
                     let slot = match property {
                         Property::Translation => &mut tracks.translation,
@@ -118,8 +132,7 @@ pub(crate) fn tracks(data: Data, report: &mut Report) -> BTreeMap<usize, Tracks>
                     if slot.is_none() {
                         *slot = Some(track);
                     } else {
-                        let message = format!("{}: node {node} is animated already; ignored", label());
-                        report.warn(Fault::new(GLTF_IGNORED, message));
+                        unread(report, Unread::ANIMATED_TWICE);
                     }
                 }
             }
@@ -128,13 +141,13 @@ pub(crate) fn tracks(data: Data, report: &mut Report) -> BTreeMap<usize, Tracks>
     nodes
 }
 
-type Driven = (usize, Property, Track);
-
-fn channel(data: Data, samplers: &[Sampler], channel: &Channel, left: &mut usize) -> Checked<Option<Driven>> {
-    let Valid(property) = channel.target.path else { return Err(Fault::new(GLTF_ANIMATION, "unknown path")) };
-    if property == Property::MorphTargetWeights {
-        return Ok(None);
-    }
+/// The node that a channel animates, and how.
+fn driven(
+    data: Data,
+    samplers: &[Sampler],
+    (channel, property): (&Channel, Property),
+    left: &mut usize,
+) -> Checked<(usize, Track)> {
     let node = channel.target.node.value();
     let target = data.root.nodes.get(node).ok_or_else(|| absent("node", node))?;
     if target.matrix.is_some() {
@@ -143,7 +156,7 @@ fn channel(data: Data, samplers: &[Sampler], channel: &Channel, left: &mut usize
     let index = channel.sampler.value();
     let sampler = samplers.get(index).ok_or_else(|| absent("sampler", index))?;
     let track = track(data, sampler, property == Property::Rotation, left).at(|| format!("sampler {index}"))?;
-    Ok(Some((node, property, track)))
+    Ok((node, track))
 }
 
 fn track(data: Data, sampler: &Sampler, rotation: bool, left: &mut usize) -> Checked<Track> {

@@ -220,7 +220,7 @@ wgsl_struct! {
         pub width: u32,
         /// Texels.
         pub height: u32,
-        /// Wrap of u in bits 0 and 1, of v in bits 2 and 3.
-        pub wrap: u32,
+        /// Wrap of u in bits 0 and 1, of v in bits 2 and 3; bit 4: the nearest texel.
+        pub sampling: u32,
     }
 }

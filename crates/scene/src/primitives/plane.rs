@@ -11,6 +11,7 @@ pub(super) fn mesh(size: [f64; 2]) -> Mesh {
         positions: corners.iter().map(|c| Vec3::new(c.0, 0.0, c.1)).collect(),
         normals: vec![Vec3::Y; 4],
         uvs: corners.iter().map(|c| Vec2::new(c.2, c.3)).collect(),
+        colors: Vec::new(),
         triangles: vec![[0, 1, 2], [0, 2, 3]],
     }
 }
