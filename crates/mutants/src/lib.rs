@@ -19,6 +19,7 @@
 //!
 //! [`Mutation`]: tyndall_shader::Mutation
 
+mod codes;
 mod draw;
 mod figures;
 mod findings;
@@ -26,7 +27,8 @@ mod hunt;
 mod reasons;
 mod trial;
 
+pub use codes::{CODES, STALE_REASON};
 pub use figures::{Figures, headline, json, missed, summary, table};
 pub use findings::{Mutant, Nearest, PassFindings, Verdict};
 pub use hunt::{Hunt, Trouble, hunt};
-pub use reasons::{CODES, REASONS, STALE_REASON};
+pub use reasons::REASONS;

@@ -2,14 +2,9 @@
 
 use std::path::Path;
 
-use tyndall_document::{Decoder, Diagnostic, Diagnostics, Node, Place, Source, codes, parse};
+use tyndall_document::{Decoder, Diagnostic, Diagnostics, Node, Place, Source, parse};
 
-codes! {
-    /// Every class of mistake that this crate reports and none below it.
-    CODES:
-    /// A reason is given for a mutant that cannot be made, or does not survive.
-    STALE_REASON = "stale-reason";
-}
+use crate::codes::STALE_REASON;
 
 /// The file beside a plugin's manifest.
 pub const REASONS: &str = "mutants.ron";

@@ -179,10 +179,8 @@ impl Fields {
 
 impl PartialEq for Fields {
     fn eq(&self, other: &Self) -> bool {
-        let same = |((a, x), (b, y)): ((&&str, &Arc<dyn AnyValue>), (&&str, &Arc<dyn AnyValue>))| {
-            a == b && x.equals(y.as_ref())
-        };
-        self.0.len() == other.0.len() && self.0.iter().zip(&other.0).all(same)
+        let mut pairs = self.0.iter().zip(&other.0);
+        self.0.len() == other.0.len() && pairs.all(|((a, x), (b, y))| a == b && x.equals(y.as_ref()))
     }
 }
 

@@ -21,8 +21,11 @@ pub struct SceneData {
     pub(crate) items: Vec<(&'static str, Shape)>,
     /// All that they are made from.
     pub(crate) from: Vec<Part>,
-    pub(crate) start: Arc<dyn Fn(&Scene) -> Box<dyn Encoder> + Send + Sync>,
+    pub(crate) start: Arc<StartEncoder>,
 }
+
+/// Makes the encoder for a scene.
+type StartEncoder = dyn Fn(&Scene) -> Box<dyn Encoder> + Send + Sync;
 
 /// Makes scene data, frame after frame.
 pub trait Encoder: Send {

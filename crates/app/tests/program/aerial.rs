@@ -318,13 +318,13 @@ fn what_air_cannot_be_is_refused() {
     let desk = Desk::new();
     desk.put("wall.scene.ron", &wall(100.0));
     for (set, hint) in [
-        ("atmosphere.g=(1, 0, 0)", "`g` is"),
-        ("atmosphere.g=(0, -1, 0)", "`g` is"),
-        ("atmosphere.g=(0, 0, 1.5)", "`g` is"),
-        ("atmosphere.mie=(-1e-5, 0, 0)", "`mie` is"),
-        ("atmosphere.rayleigh=(0, -1, 0)", "`rayleigh` is"),
+        ("atmosphere.g=(1, 0, 0)", "`g` must be between"),
+        ("atmosphere.g=(0, -1, 0)", "`g` must be between"),
+        ("atmosphere.g=(0, 0, 1.5)", "`g` must be between"),
+        ("atmosphere.mie=(-1e-5, 0, 0)", "`mie` must be between"),
+        ("atmosphere.rayleigh=(0, -1, 0)", "`rayleigh` must be between"),
         ("atmosphere.absorption=(inf, 0, 0)", "inf"),
-        ("atmosphere.mie_height=-1", "`mie_height` is"),
+        ("atmosphere.mie_height=-1", "`mie_height` must be between"),
         ("atmosphere.mie=1e-5", "3 numbers"),
         ("preset=\"marz\"", "did you mean `mars`?"),
         ("atmosphere.preset=\"cler\"", "did you mean `clear`?"),

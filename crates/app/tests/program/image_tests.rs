@@ -137,7 +137,7 @@ fn each_reason_not_to_run_has_its_own_end() {
     assert!(wrong.out.contains("empty-pattern") && wrong.out.contains("did you mean `air.radiance`?"), "{}", wrong.out);
     assert_eq!(last_line(&wrong), "0 passed, 1 failed");
     test(&desk, "\"air.radiance\": (properties: [Finite])");
-    assert!(desk.ends(2, &["test", "--filter", "nothing"]).err.contains("holds \"nothing\""));
+    assert!(desk.ends(2, &["test", "--filter", "nothing"]).err.contains("contains \"nothing\""));
     let no_adapter = desk.ends(3, &["test", "--adapter", "no such card"]);
     assert!(no_adapter.out.contains("no adapter's name holds"), "{}", no_adapter.out);
     assert_eq!(last_line(&no_adapter), "0 passed, 1 failed");
@@ -194,7 +194,7 @@ fn reports_go_into_folders_of_their_own() {
         ("mine", "holds other files"),
         ("file", "it is a file"),
         ("file/report", "it is a file"),
-        (".", "no name of a folder"),
+        (".", "it is not the name of a folder"),
     ] {
         let refused = desk.ends(2, &["test", "--report", folder]);
         assert!(refused.err.contains(why) && refused.out.is_empty(), "{folder}: {}{}", refused.err, refused.out);
@@ -209,14 +209,16 @@ fn reports_go_into_folders_of_their_own() {
     assert!(unwritten.out.contains("1 passed, 0 failed") && unwritten.err.contains("file/figures.json"));
 }
 
-/// A shader that does not compile stops every test, and is told once.
+/// A shader that does not compile stops every test of a graph that uses it, and is told once.
 #[test]
 fn a_broken_shader_is_told_once() {
     let desk = Desk::new();
     desk.put("plugins/lens/plugin.ron", "(name: \"lens\", version: \"0.1.0\", about: \"a lens\", passes: { \"blur\": (about: \"blur\", shader: \"blur.wgsl\", ports: {}) })");
     desk.put("plugins/lens/blur.wgsl", "fn main() { let a = nonsense; }");
+    let graph = std::fs::read_to_string(desk.path("fog.graph.ron")).unwrap();
+    desk.put("blurred.graph.ron", &graph.replace("passes: {", "passes: { \"blurred\": (use: \"lens.blur\"),"));
     for name in ["a", "b", "c"] {
-        let text = "(version: 1, graph: \"fog.graph.ron\", size: (24, 16), taps: { \"air.radiance\": (properties: [Finite]) })";
+        let text = "(version: 1, graph: \"blurred.graph.ron\", size: (24, 16), taps: { \"air.radiance\": (properties: [Finite]) })";
         desk.put(&format!("{name}.test.ron"), text);
     }
     for jobs in ["1", "3"] {
