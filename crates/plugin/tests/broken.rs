@@ -165,7 +165,7 @@ fn two_passes_of_one_name_stop_whoever_uses_it() {
     let crates = vec![Plugin::new("t", folder()), Plugin::new("t", folder())];
     let registry = Registry::new(crates.into_iter().chain(shipped()).collect(), Vec::new(), &Library::default());
     let text = mistakes(&registry, "t.p");
-    assert!(text.contains("there is a pass named `t.p` already"), "{text}");
+    assert!(text.contains("there already is a pass `t.p`"), "{text}");
 }
 
 /// Clones share what is linked, whichever of them links it, in whatever thread.

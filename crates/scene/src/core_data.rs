@@ -95,7 +95,7 @@ pub fn phase_table(phase: &Phase) -> Vec<u8> {
 }
 
 fn height_fog(fog: &HeightFog) -> layout::HeightFog {
-    // a scale height that is next to nothing must not become infinite: 0 times that is no number
+    // A tiny scale height must not become infinite: 0 times that would be NaN.
     let falloff = fog.falloff.min(1e30) as f32;
     layout::HeightFog { base_height: fog.base_height as f32, falloff, ..Default::default() }
 }

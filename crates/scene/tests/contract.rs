@@ -1,4 +1,4 @@
-//! The scene file of the contract, its defaults, and what they become.
+//! A scene file with every field, the defaults, and what they become.
 
 use std::path::Path;
 use std::sync::Arc;

@@ -44,7 +44,7 @@ pub(crate) fn data() -> SceneData {
 struct Hierarchy;
 
 impl Encoder for Hierarchy {
-    /// Triangles with a corner that is no number are left out.
+    /// Triangles with a corner that is not finite are left out.
     fn encode(&mut self, moment: &Moment<'_>, data: &mut Buffers<'_>) {
         let triangles = moment.casters();
         let is_finite = |corners: &&[DVec3; 3]| corners.iter().all(|corner| corner.is_finite());

@@ -18,7 +18,7 @@ use tyndall_shaders::medium::{effective_way, transmittance};
 use tyndall_shaders::ray::Ray;
 use tyndall_shaders::scene::{HeightFog, Light, Scene};
 
-/// Direct light of every light, in height fog too: the formula of the contract, from the surface that was fed.
+/// Direct light of every light, in height fog too: (ρ/π·(n·l) + k_s·cosⁿα)·I·e^(−τ)/d², from the surface at the inputs.
 pub(crate) fn direct(input: &ReferenceInput<'_>) -> Outputs {
     let fog = input.scene()?.height_fog;
     of_surfaces(input, &fog, |scene, light, surface| straight(scene, &fog, light, surface))

@@ -100,7 +100,7 @@ fn color(name: &str) -> PortDescriptor {
     output(name, Class::Color, Format::Rgba32Float).unit(RADIANCE)
 }
 
-/// The passes of the contract's example.
+/// The passes of the example graph.
 fn rendering() -> Vec<PassDescriptor> {
     let depth = || input("depth", Class::Scalar).unit("m");
     let same = || SizeRule::same("depth");
@@ -326,7 +326,7 @@ pub const CONTRACT: &str = r#"(
 )
 "#;
 
-/// A graph file of about as many passes, in groups like the contract's example, each group reading the one before it.
+/// A graph file of about as many passes, in groups like the example graph's, each group reading the one before it.
 pub fn generated(passes: usize) -> String {
     use std::fmt::Write;
     let mut text = String::from(

@@ -152,7 +152,7 @@ pub fn bits(data: &PortData) -> Vec<u32> {
     data.floats().iter().map(|number| number.to_bits()).collect()
 }
 
-/// The plan, the values and the scene of the contract's fog graph, without its file.
+/// The plan, the values and the scene of the shipped fog graph, without its file.
 pub const FOG: &str = r#"(
     version: 1,
     size: (40, 30),

@@ -1,4 +1,4 @@
-//! Materials of a glTF file as the Lambert reflectance of the contract: ρ = base colour × (1 − metallic).
+//! Materials of a glTF file as a Lambert reflectance: ρ = base colour × (1 − metallic).
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;

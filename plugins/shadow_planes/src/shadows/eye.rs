@@ -78,7 +78,7 @@ impl AtEye {
         for (number, (triangle, facing)) in triangles.iter().zip(facing).enumerate() {
             let touches = edges.of_triangle(number);
             let left = sides(triangle.map(|vertex| places[vertex as usize])).map(|[a, b]| Turning::of(a, b).left);
-            // Which side of the axis those edges are on that pass through the eye is no matter.
+            // It does not matter on which side of the axis the edges through the eye are.
             let mut others = left.iter().zip(touches).filter(|(_, touches)| !touches).map(|(left, _)| *left);
             let Some(first) = others.next() else { continue };
             if *facing == 0 || others.any(|left| left != first) {

@@ -106,7 +106,7 @@ pub(crate) struct PlacedEdge {
 }
 
 impl PlacedEdge {
-    /// `None` where a vertex is no number.
+    /// `None` if a vertex is not finite.
     pub(crate) fn of(edge: &SilhouetteEdge, places: &[DVec3]) -> Option<PlacedEdge> {
         let [a, b] = edge.vertices.map(|vertex| places[vertex as usize]);
         let placed = if Turning::of(a, b).left {
