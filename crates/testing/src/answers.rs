@@ -112,10 +112,15 @@ impl<T: Clone + PartialEq> Distinct<T> {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     use glam::DVec3;
+    use tyndall_document::{Source, render_text};
     use tyndall_plugin::Outputs;
+    use tyndall_plugin::scene::animate::Animated;
+    use tyndall_plugin::scene::read::{Range, animated_number};
+    use tyndall_plugin::scene::{Extension, Extensions, Overrides, Scene as Loaded, SceneField};
     use tyndall_shaders::phase::{PhaseTable, phase};
     use tyndall_shaders::scene::{Camera, HeightFog, Medium, Phase, Scene};
 
@@ -161,6 +166,38 @@ mod tests {
         };
         assert_ne!(of(2.0), of(50.0));
         assert_eq!((of(2.0), ASKED.load(Ordering::Relaxed)), (of(2.0), 2), "each is asked once");
+    }
+
+    const GLOW: SceneField<Loaded, Animated<f64>> =
+        SceneField::new("glow", |reader, node| animated_number(reader, node, "glow", Range::Any));
+
+    /// The field of a plugin.
+    fn glow(input: &ReferenceInput<'_>) -> Outputs {
+        let moment = input.moment()?;
+        let level = GLOW.of(moment.scene).map_or(0.0, |glow| glow.at(moment.time));
+        Ok(BTreeMap::from([("p", vec![level as f32].into())]))
+    }
+
+    /// What shaders are given of these scenes is the same; what a plugin reads of them is not, and not at all times.
+    #[test]
+    fn fields_of_plugins_are_a_part_of_the_question() {
+        let mut extension = Extension::default();
+        extension.add_field(&GLOW);
+        let mut extensions = Extensions::default();
+        extensions.add("glow", extension).expect("nothing clashes");
+        let (answers, extensions) = (Answers::sharing(&Arc::default()), Arc::new(extensions));
+        let of = |value: &str, time: f64| {
+            let text = format!("(camera: (position: (0, 0, 1), look_at: (0, 0, 0)), glow: {value})");
+            let source = Source::new("glow.scene.ron", text);
+            let read = Loaded::from_source(&source, Path::new("."), &Overrides::new(), &extensions);
+            let loaded = read.unwrap_or_else(|mistakes| panic!("{}", render_text(&mistakes, false))).0;
+            let (moment, scene) = (loaded.moment(time, 1.0), loaded.twin(time, 1.0));
+            let asked = ReferenceInput { moment: Some(&moment), ..input(Some(&scene)) };
+            answers.of("pass", glow, &asked).expect("it has a scene")["p"].exact()[0]
+        };
+        assert_eq!((of("1", 0.0), of("2", 0.0)), (1.0, 2.0));
+        let keys = "Keys([(0, 0), (2, 1)])";
+        assert_eq!((of(keys, 0.0), of(keys, 1.0)), (0.0, 0.5));
     }
 
     /// Whether another reference runs at the same time.
