@@ -155,11 +155,14 @@ fn met(scene: &Scene, twin: &tyndall_shaders::scene::Scene, size: (u32, u32)) ->
     Geometry { depth, ..nothing_met(size) }
 }
 
+/// Pictures that this project did not compute.
+const REFERENCE: &str = "../../tests/reference";
+
 /// With shadows, too: a box, a sphere, and both. The picture's sum has the outlines. A truth without shadows is another.
 #[test]
 fn the_truth_with_shadows_agrees_with_reference_data() {
-    let folder = Path::new("../app/tests/reference");
-    let sums = std::fs::read_to_string(folder.join("sums.json")).unwrap();
+    let (folder, shadows) = (Path::new(REFERENCE), Path::new("../../plugins/shadow_planes/tests/reference"));
+    let sums = std::fs::read_to_string(shadows.join("sums.json")).unwrap();
     let sums: serde_json::Value = serde_json::from_str(&sums).unwrap();
     let size = (160, 120);
     for name in ["box", "sphere", "box_sphere"] {
@@ -169,7 +172,7 @@ fn the_truth_with_shadows_agrees_with_reference_data() {
         let truth =
             |casters| Truth::new(Output::Airlight, Seen { scene: &twin, geometry: &geometry, casters }, size, &|| ());
         let shadowed = truth(Some(&casters));
-        let samples = tyndall_image::read_array(&folder.join(format!("{name}.shadowed.npy"))).unwrap();
+        let samples = tyndall_image::read_array(&shadows.join(format!("{name}.shadowed.npy"))).unwrap();
         let (samples, _) = samples.data.as_chunks::<5>();
         let errors = |truth: &Truth| {
             let error = |sample: &[f32; 5]| {
@@ -180,7 +183,7 @@ fn the_truth_with_shadows_agrees_with_reference_data() {
         };
         let found = errors(&shadowed);
         let sum: f64 = shadowed.pixels.iter().map(|pixel| pixel.x).sum();
-        let wanted = sums[format!("{name}.shadowed")][0].as_f64().unwrap();
+        let wanted = sums[name][0].as_f64().unwrap();
         println!("{name}: {found:?}, sum {:e}", sum / wanted - 1.0);
         assert!(samples.len() > 1_000 && found.p99 < 1e-6 && found.max < 1e-4, "{name}: {found:?}");
         assert!((sum / wanted - 1.0).abs() < 1e-6, "{name}: {sum} for {wanted}");
@@ -192,7 +195,7 @@ fn the_truth_with_shadows_agrees_with_reference_data() {
 
 /// Errors of the truth of a scene without surfaces, at the pixels that the reference has (see `tests/reference/README.md`).
 fn truth_errors(name: &str) -> Percentiles {
-    let folder = Path::new("../app/tests/reference");
+    let folder = Path::new(REFERENCE);
     let (scene, _) = Scene::load(&folder.join(format!("{name}.scene.ron")), &Vec::new(), &Arc::default()).unwrap();
     let size = (160, 120);
     let (twin, geometry) = (scene.twin(0.0, 4.0 / 3.0), nothing_met(size));

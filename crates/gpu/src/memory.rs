@@ -17,7 +17,7 @@ pub fn check(gpu: &Gpu, plan: &Plan, readback: u64) -> Result<(), GpuError> {
     for (index, slot) in plan.slots.entries() {
         within_limits(gpu, &slot_name(plan, index), &slot.resource)?;
     }
-    let needed = plan.slots.iter().map(|slot| slot.resource.bytes()).sum::<u64>() + readback;
+    let needed = plan.slots.iter().fold(readback, |sum, slot| sum.saturating_add(slot.resource.bytes()));
     match available(gpu) {
         Some(available) if needed > available => Err(GpuError::TooLittleMemory { needed, available }),
         _ => Ok(()),

@@ -35,7 +35,7 @@ impl<'a> Running<'a> {
         cache: &mut PipelineCache,
     ) -> Result<Self, Error> {
         let largest = plan.roots.iter().map(|port| plan.resource(*port).bytes()).max().unwrap_or_default();
-        memory::check(gpu, &plan, READBACK_COPIES * largest)?;
+        memory::check(gpu, &plan, READBACK_COPIES.saturating_mul(largest))?;
         let aspect = f64::from(plan.size.0) / f64::from(plan.size.1);
         let scene = scene.map(|scene| (scene, scene.encode_for(0.0, aspect, &|name| plan.reads(name))));
         // Before the pipelines, which may be made for the lengths of its lists.
