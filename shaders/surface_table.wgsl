@@ -20,6 +20,17 @@
 // The table is linear in both coordinates and holds both ends: texel (i, j) of n x n is J(10 i/(n-1), pi/2 j/(n-1)).
 // Beyond T = 10 the lookup clamps. Beyond theta_s = pi/2 the thesis has no table: there the light is left out, so what
 // turns away from a lamp stays black, although fog lights it.
+//
+// Biri, Arques and Michelin (2006, section III.C) have a table of T alone for Lambert, and one of T and cos(phi_S) for Phong,
+// phi_S as theta_s there. With Gamma_l(T) = integral of P_l(cos gamma) A(gamma) dgamma over 0..pi:
+//
+//   published   2 pi cos(phi_n) Gamma_1                                                 (eq. 10 and 11)
+//   clamped     sum over l = 0, 1, 2, 4 of 2 pi c_l P_l(cos phi_n) Gamma_l              in place of J^1
+//   Gamma_P(T, phi_S) = J^n(T, phi_S)                                                   (eq. 12 and 13)
+// Eq. 9 integrates over the whole sphere, so light from behind the surface is taken off: the sum is a vector irradiance. Its
+// clamped form is the same field, convolved with max(cos, 0) = sum of c_l P_l up to degree 4 (Ramamoorthi and Hanrahan 2001).
+// What is not as printed: in the exponents cos(alpha - phi) + sin(phi) for cos(alpha - phi) + 1; one l too many before eq. 10;
+// in eq. 12 and 13 sin(phi)/sin(phi'), d phi d theta, and phi_S for phi'; a phase function with the integral 1.
 
 #import scene
 #import quadrature
@@ -69,11 +80,30 @@ fn lobe_over_circle(gamma: f32, angle: f32, n: f32) -> f32 {
     return select(0.0, 2.0 * half * sum, a + b > 0.0);
 }
 
-// A ring of directions about the light: the lobe's share K dgamma of it, and what comes along it from the light. The sum
-// over a ring's nodes of weight f(w) is A(gamma) e^T.
+// The same in a table whose rows are even in the cosine of the angle, from -1 to 1.
+fn place_by_cosine(texel: vec2<u32>, size: vec2<u32>) -> SurfacePlace {
+    let place = place_of_texel(texel, size);
+    return SurfacePlace(place.depth, acos(clamp(place.angle / HALF_PI * 2.0 - 1.0, -1.0, 1.0)));
+}
+
+// A ring of directions about the light: dgamma, or a lobe's share K dgamma of it, and what comes along it from the light.
+// The sum over a ring's nodes of weight f(w) is A(gamma) e^T.
 struct Ring {
+    gamma: f32,
     weight: f32,
     nodes: TauNodes,
+}
+
+// Ring i of GAMMA_NODES between two angles. gamma = start + length/(1 + e^-s), in equal steps of s; what comes from beside
+// the light changes on the scale of the phase function's narrowest lobe, `width`.
+fn ring_between(start: f32, length: f32, depth: f32, width: f32, i: u32) -> Ring {
+    let least = select(-GAMMA_REACH, log(TAU_LEFT_OUT * min(1.0, width / length)), start == 0.0);
+    let step = (GAMMA_REACH - least) / f32(GAMMA_NODES);
+    let e = exp(-(least + (f32(i) + 0.5) * step));
+    let share = 1.0 / (1.0 + e);
+    let gamma = start + length * share;
+    let weight = step * length * share * (e * share);
+    return Ring(gamma, weight, tau_nodes(tan(0.5 * gamma), TAU_ENDLESS, depth * sin(gamma), width));
 }
 
 // Ring i of those of a lobe; `width` is that of the narrowest lobe of the phase function.
@@ -86,15 +116,9 @@ fn ring_of_lobe(place: SurfacePlace, n: f32, width: f32, i: u32) -> Ring {
     let broad = n < SHARP;
     let start = select(low, kink, broad && !first);
     let length = max(select(high, kink, broad && first) - start, 1e-6);
-    // gamma = start + length/(1 + e^-s), in equal steps of s; what comes from beside the light changes on the scale of
-    // the phase function's lobe
-    let least = select(-GAMMA_REACH, log(TAU_LEFT_OUT * min(1.0, width / length)), start == 0.0);
-    let step = (GAMMA_REACH - least) / f32(GAMMA_NODES);
-    let e = exp(-(least + (f32(i % GAMMA_NODES) + 0.5) * step));
-    let share = 1.0 / (1.0 + e);
-    let gamma = start + length * share;
-    let weight = step * length * share * (e * share) * lobe_over_circle(gamma, place.angle, n);
-    return Ring(weight, tau_nodes(tan(0.5 * gamma), TAU_ENDLESS, place.depth * sin(gamma), width));
+    var ring = ring_between(start, length, place.depth, width, i % GAMMA_NODES);
+    ring.weight *= lobe_over_circle(ring.gamma, place.angle, n);
+    return ring;
 }
 
 // J of a channel, 0 where the light is not in front.
@@ -103,10 +127,11 @@ fn j_at(table: texture_2d<f32>, weights: vec4<f32>, depth: f32, cosine: f32) -> 
     return select(0.0, dot(weights, bilinear(table, place)), cosine >= 0.0);
 }
 
-fn j_of_channels(table: texture_2d<f32>, weights: vec4<f32>, depth: vec3<f32>, cosine: f32) -> vec3<f32> {
-    return vec3<f32>(
-        j_at(table, weights, depth.x, cosine),
-        j_at(table, weights, depth.y, cosine),
-        j_at(table, weights, depth.z, cosine),
-    );
+// P_0, P_1, P_2 and P_4.
+fn zonal_polynomials(cosine: f32) -> vec4<f32> {
+    let square = cosine * cosine;
+    return vec4<f32>(1.0, cosine, 1.5 * square - 0.5, (4.375 * square - 3.75) * square + 0.375);
 }
+
+// c_l of max(cos, 0), l = 0, 1, 2, 4.
+const CLAMPED_COSINE: vec4<f32> = vec4<f32>(0.25, 0.5, 0.3125, -0.09375);

@@ -1,5 +1,13 @@
 // Hong's J_0 to J_3 of one lobe, one to a channel: see shaders/surface_table.wgsl.
-#import "j_texel.wgsl"
+#import surface_table
+#import "table_lobe.wgsl"
+
+struct Params {
+    size: u32,
+    lobe: u32,                  // 0 Lambert, 1 Phong
+}
+
+var<uniform> params: Params;
 
 var table: texture_storage_2d<rgba32float, write>;
 
@@ -7,7 +15,7 @@ var table: texture_storage_2d<rgba32float, write>;
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = vec2<u32>(params.size);
     let place = place_of_texel(id.xy, size);
-    let n = exponent_of_table();
+    let n = exponent_of_table(params.lobe);
     var sum = vec4<f32>(0.0);
     var i = 0u;
     loop {

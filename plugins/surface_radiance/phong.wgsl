@@ -5,6 +5,7 @@
 #import lights
 #import light_sum
 #import reflection
+#import "ambient.wgsl"
 #import "lobe_data.wgsl"
 
 override direct: bool = true;
@@ -41,7 +42,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let surface = Surface(ray.origin + min(way, ENDLESS) * ray.direction, lambert.xyz, phong.xyz, phong.w,
         lookup_of(toward_eye, 0u, 1.0, table),
         lookup_of(reflect(ray.direction, toward_eye), phong_layer, phong.w, table));
-    let sum = received_of_all(Receiver(surface, textureLoad(lit, id.xy, 0)));
+    var sum = received_of_all(Receiver(surface, textureLoad(lit, id.xy, 0)));
+    sum += select(vec3<f32>(0.0), ambient_reflected(medium, lambert.xyz, phong.xyz, phong.w), scattered);
     if all(id.xy < size) {
         let found = select(vec3<f32>(0.0), sum * transmittance(medium, way), way < ENDLESS);
         textureStore(radiance, id.xy, vec4<f32>(found, 1.0));

@@ -10,8 +10,8 @@ pub use self::cosine_lobes::{COSINE_LOBES_MAX, SHININESSES_MAX, SPOTS_MAX};
 /// The plugin.
 pub fn plugin() -> Plugin {
     let files = folder!(
-        "surface_radiance": "plugin.ron", "direct.wgsl", "j.wgsl", "j_k.wgsl", "j_texel.wgsl", "legendre.wgsl",
-        "lobe_data.wgsl", "lobes.wgsl", "lookup.wgsl", "phong.wgsl", "table.wgsl", "zonal.wgsl"
+        "surface_radiance": "plugin.ron", "ambient.wgsl", "biri.wgsl", "direct.wgsl", "gamma_l.wgsl", "j.wgsl", "j_k.wgsl", "legendre.wgsl",
+        "lobe_data.wgsl", "lobes.wgsl", "lookup.wgsl", "phong.wgsl", "table.wgsl", "table_lobe.wgsl", "zonal.wgsl"
     );
     Plugin::new("surface_radiance", files)
         .scene_data(cosine_lobes::data())
@@ -24,6 +24,8 @@ pub fn plugin() -> Plugin {
         .reference("surface_radiance.phong", reference::phong::phong)
         .reference("surface_radiance.j", reference::tables::j)
         .reference("surface_radiance.table", reference::lookup::table)
+        .reference("surface_radiance.gamma_l", reference::tables::gamma_l)
+        .reference("surface_radiance.biri", reference::lookup::biri)
         .reference("surface_radiance.j_k", reference::tables::j_k)
         .reference("surface_radiance.legendre", reference::lookup::legendre)
 }

@@ -14,14 +14,14 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use tyndall_plugin::{Outputs, Pixel, ReferenceInput};
 use tyndall_shaders::lights::{incident, lit_bit};
-use tyndall_shaders::medium::{effective_way, transmittance};
+use tyndall_shaders::medium::{effective_way, opacity, transmittance};
 use tyndall_shaders::ray::Ray;
 use tyndall_shaders::scene::{HeightFog, Light, Scene};
 
 /// Direct light of every light, in height fog too: (ρ/π·(n·l) + k_s·cosⁿα)·I·e^(−τ)/d², from the surface at the inputs.
 pub(crate) fn direct(input: &ReferenceInput<'_>) -> Outputs {
     let fog = input.scene()?.height_fog;
-    of_surfaces(input, &fog, |scene, light, surface| straight(scene, &fog, light, surface))
+    of_surfaces(input, &fog, false, |scene, light, surface| straight(scene, &fog, light, surface))
 }
 
 /// What a ray meets.
@@ -39,10 +39,12 @@ pub(crate) struct Surface {
     pub phong: [f64; 4],
 }
 
-/// What surfaces send to the eye: `light` gives that of one light before the way to the eye.
+/// What surfaces send to the eye: `light` gives that of one light before the way to the eye; what the medium sends to a
+/// surface without any light of the scene is added where it is asked for.
 pub(crate) fn of_surfaces(
     input: &ReferenceInput<'_>,
     fog: &HeightFog,
+    with_ambient: bool,
     light: impl Fn(&Scene, &Light, &Surface) -> DVec3 + Sync,
 ) -> Outputs {
     let (scene, normal, material) = (input.scene()?, input.input("normal")?, input.input("material")?);
@@ -58,8 +60,16 @@ pub(crate) fn of_surfaces(
         let lights = scene.lights.iter().enumerate().map(|(index, each)| {
             light(scene, each, &Surface { is_lit: lit.is_none_or(|bits| has_light(bits, index)), ..surface })
         });
-        lights.sum::<DVec3>() * to_eye
+        let around = if with_ambient { ambient(scene, &surface) } else { DVec3::ZERO };
+        (lights.sum::<DVec3>() + around) * to_eye
     })
+}
+
+/// J·(ρ + k_s·2π/(n + 1)): light scattered many times, and emission, of a medium without end.
+fn ambient(scene: &Scene, surface: &Surface) -> DVec3 {
+    let whole_lobe = 2.0 * PI / (surface.phong[3] + 1.0);
+    let reflected = rgb(&surface.diffuse) + rgb(&surface.phong) * whole_lobe;
+    opacity(&scene.medium, f64::INFINITY) * scene.ambient * reflected
 }
 
 /// Whether a light is among those of a texel; beyond those that there is room for all are.

@@ -17,7 +17,7 @@ pub(crate) fn phong(input: &ReferenceInput<'_>) -> Outputs {
     let table = if input.is_on("scattered") { Some(input.input("table")?) } else { None };
     let direct = input.is_on("direct");
     let layers = Layers::of(input.moment()?.scene);
-    of_surfaces(input, &HeightFog::NONE, |scene, light, surface| {
+    of_surfaces(input, &HeightFog::NONE, table.is_some(), |scene, light, surface| {
         let mut sum = DVec3::ZERO;
         if direct {
             sum += straight(scene, &HeightFog::NONE, light, surface);

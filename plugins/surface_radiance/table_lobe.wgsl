@@ -1,13 +1,6 @@
-// What the two tables of light scattered onto surfaces share: which lobe they are for, and which texel this is.
+// Which lobe a table of light scattered onto surfaces is for.
 #import scene
-#import surface_table
 
-struct Params {
-    size: u32,
-    lobe: u32,                  // 0 lambert, 1 phong
-}
-
-var<uniform> params: Params;
 var<storage, read> materials: Materials;
 
 // The shininess of the first material that has a Phong lobe; 1 where none has.
@@ -25,6 +18,7 @@ fn shininess() -> f32 {
     return select(1.0, found, found > 0.0);
 }
 
-fn exponent_of_table() -> f32 {
-    return select(1.0, shininess(), params.lobe == 1u);
+// `lobe`: 0 Lambert, 1 Phong.
+fn exponent_of_table(lobe: u32) -> f32 {
+    return select(1.0, shininess(), lobe == 1u);
 }
