@@ -56,6 +56,15 @@ struct Beside {
     across: DVec3,
 }
 
+/// e^(−σ_t·way), at the cost of one channel where all are alike.
+fn attenuation(extinction: DVec3, way: f64) -> DVec3 {
+    let red = (-extinction.x * way).exp();
+    if extinction == DVec3::splat(extinction.x) {
+        return DVec3::splat(red);
+    }
+    DVec3::new(red, (-extinction.y * way).exp(), (-extinction.z * way).exp())
+}
+
 impl Beside {
     fn new(ray: &Ray, position: DVec3, radius: f64) -> Self {
         let to_light = position - ray.origin;
@@ -84,7 +93,7 @@ impl Beside {
             // w = 1/(1 + e^(-2u)), 1/cosh u = 2/(e^u + e^(-u))
             let v = u.exp();
             let scattered = phase(&medium.phase, v * v / (1.0 + v * v)) * falloff(u) * 2.0 / (v + 1.0 / v);
-            scattered * (-medium.extinction * (self.t + self.h * v)).exp()
+            scattered * attenuation(medium.extinction, self.t + self.h * v)
         };
         let kinks = kinks(&medium.phase);
         let part = |part: &[f64; 2]| {

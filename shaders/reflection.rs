@@ -15,6 +15,7 @@ use crate::scene::{Light, Medium, Phase};
 use glam::DVec3;
 use std::f64::consts::PI;
 use std::rc::Rc;
+use std::sync::LazyLock;
 
 /// A point of a surface and how it reflects.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,8 +103,8 @@ pub fn sun_convolution(kind: &Phase, n: f64, theta: f64) -> f64 {
 ///
 /// Right to six digits for lobes of n up to 10⁴.
 pub struct Field {
-    /// γ, and F·sin γ times the width that the node stands for.
-    nodes: Vec<(f64, f64)>,
+    /// F·sin γ at each of [`ANGLES`], times the width that it stands for.
+    glows: Vec<f64>,
 }
 
 impl Field {
@@ -117,31 +118,53 @@ impl Field {
         Self::new(|gamma| phase(kind, (gamma / 2.0).sin().powi(2)) * gamma.sin())
     }
 
-    /// Panels that grow from the light outward as far as the sharpest lobe bears.
     fn new(around: impl Fn(f64) -> f64) -> Self {
-        let mut edges = vec![0.0, 1e-6];
-        while let Some(last) = edges.last().copied().filter(|last| *last < PI) {
-            edges.push((2.0 * last).min(last + 0.02).min(PI));
-        }
-        let rule = gauss_legendre(8);
-        let node = |[a, b]: [f64; 2], (x, weight): (f64, f64)| {
-            let gamma = a + (b - a) * 0.5 * (x + 1.0);
-            (gamma, 0.5 * (b - a) * weight * around(gamma))
-        };
-        let panels = edges.array_windows::<2>();
-        Self { nodes: panels.flat_map(|panel| rule.iter().map(|at| node(*panel, *at)).collect::<Vec<_>>()).collect() }
+        Self { glows: ANGLES.iter().map(|(gamma, width)| width * around(*gamma)).collect() }
     }
 
-    /// ∫ F·max(0, cos)ⁿ dω about an axis at the angle θ from the way to the light: first around that way.
+    /// ∫ F·max(0, cos)ⁿ dω about an axis at the angle θ from the way to the light.
     pub fn over_lobe(&self, n: f64, theta: f64) -> f64 {
-        let near = |gamma: f64| (gamma - theta).abs() < reach(n);
-        let lit = self.nodes.iter().filter(|(gamma, _)| near(*gamma));
-        lit.map(|(gamma, glow)| glow * azimuthal_sum(n, theta, *gamma)).sum()
+        self.over(&LobeOverCircles::new(n, theta))
+    }
+
+    /// The same, of a lobe that serves many fields.
+    pub fn over(&self, lobe: &LobeOverCircles) -> f64 {
+        let lit = &self.glows[lobe.first..lobe.first + lobe.sums.len()];
+        lit.iter().zip(&lobe.sums).map(|(glow, sum)| glow * sum).sum()
     }
 
     /// ∫ F dω: the light that comes from all around.
     pub fn all_around(&self) -> f64 {
-        2.0 * PI * self.nodes.iter().map(|(_, glow)| glow).sum::<f64>()
+        2.0 * PI * self.glows.iter().sum::<f64>()
+    }
+}
+
+/// γ, and the width that it stands for, of the integral over a [`Field`]: panels that grow from the light outward as far as
+/// the sharpest lobe bears.
+static ANGLES: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
+    let mut edges = vec![0.0, 1e-6];
+    while let Some(last) = edges.last().copied().filter(|last| *last < PI) {
+        edges.push((2.0 * last).min(last + 0.02).min(PI));
+    }
+    let rule = gauss_legendre(8);
+    let node = |[a, b]: [f64; 2], (x, weight): (f64, f64)| (a + (b - a) * 0.5 * (x + 1.0), 0.5 * (b - a) * weight);
+    edges.array_windows::<2>().flat_map(|panel| rule.iter().map(|at| node(*panel, *at)).collect::<Vec<_>>()).collect()
+});
+
+/// max(0, cos)ⁿ about an axis, integrated over each circle around the way to the light. No field has a part in it.
+pub struct LobeOverCircles {
+    /// Of [`ANGLES`], the first that the lobe reaches.
+    first: usize,
+    sums: Vec<f64>,
+}
+
+impl LobeOverCircles {
+    /// `theta` (radians) is the angle between the axis and the way to the light.
+    pub fn new(n: f64, theta: f64) -> Self {
+        let before = |gamma: f64| gamma <= theta - reach(n);
+        let first = ANGLES.partition_point(|(gamma, _)| before(*gamma));
+        let lit = ANGLES[first..].iter().take_while(|(gamma, _)| *gamma < theta + reach(n));
+        Self { first, sums: lit.map(|(gamma, _)| azimuthal_sum(n, theta, *gamma)).collect() }
     }
 }
 
@@ -160,18 +183,21 @@ pub fn glow(kind: &Phase, depth: f64, gamma: f64) -> f64 {
 pub fn glow_of(phase: impl Fn(f64) -> f64, depth: f64, gamma: f64) -> f64 {
     let start = (gamma / 2.0).tan();
     let rate = depth * gamma.sin();
-    let at = |x: f64| {
+    let at = |x: &f64| {
         let v = start + x;
         let w = if v > 1e8 { 1.0 } else { v * v / (1.0 + v * v) };
         phase(w) * (-rate * x).exp() * 2.0 * x / (1.0 + v * v)
     };
-    // in ln(v - start), in which all scales are alike, equal steps reach any precision
-    let sum: f64 = (-220..=220).map(|i| at((STEP * f64::from(i)).exp())).sum();
-    (-depth).exp() * STEP * sum
+    // e^-745 is 0
+    let lit = GLOW_NODES.iter().take_while(|x| rate * **x < 745.0);
+    (-depth).exp() * STEP * lit.map(at).sum::<f64>()
 }
 
 /// Of ln(v - start): what lies between two values or beyond the last ones is less than 1e-9.
 const STEP: f64 = 0.1;
+
+/// v - start, in equal steps of its logarithm, in which all scales are alike, so that they reach any precision.
+static GLOW_NODES: LazyLock<Vec<f64>> = LazyLock::new(|| (-220..=220).map(|i| (STEP * f64::from(i)).exp()).collect());
 
 /// ∫ max(0, cos γ·cos θ + sin γ·sin θ·cos φ)ⁿ dφ around the way to the light.
 fn azimuthal_sum(n: f64, theta: f64, gamma: f64) -> f64 {

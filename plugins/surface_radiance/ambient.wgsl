@@ -6,6 +6,7 @@
 // (Biri, Arques and Michelin 2006, eq. 2, adds L_a e^(-k_t d) for each light to what a surface sends, as it is: that fades with
 // the fog, grows with the number of lights, and a black surface shines.)
 #import scene
+#import cone
 #import medium
 
 var<uniform> ambient: Ambient;

@@ -1,16 +1,17 @@
 //! `--set`, and parameters, switches and times in graph files.
 
+use std::path::Path;
+
 use tyndall_image::{Image, metrics, read};
-use tyndall_tests::Desk;
+use tyndall_tests::{Desk, sessions};
 
 use crate::run::Program;
 
+/// In this process: that a command line carries its settings there is told by `render.rs`.
 fn draw(desk: &Desk, graph: &str, settings: &[&str], output: &str) -> Image {
-    let output = format!("{output}=set.npy");
-    let mut arguments = vec!["render", graph, "--size", "12x8", "--output", &output];
-    settings.iter().for_each(|setting| arguments.extend(["--set", setting]));
-    desk.ends(0, &arguments);
-    read(&desk.path("set.npy")).unwrap()
+    let request = desk.request(Path::new(graph), None, Some((12, 8)), settings);
+    let drawn = sessions().with(|session| session.draw(&request, &[output], 0..1)).and_then(|drawn| drawn);
+    drawn.unwrap_or_else(|error| panic!("{settings:?}: {error}")).pictures.remove(0)
 }
 
 #[track_caller]

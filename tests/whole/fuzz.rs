@@ -14,7 +14,7 @@ use tyndall_tests::tint::{GRAPH, MANIFEST, SHADER};
 use tyndall_tests::{Desk, SCENE, sessions, shipped};
 
 /// How often each kind of file is broken.
-const ROUNDS: usize = 2_000;
+const ROUNDS: usize = 1_000;
 /// How often it is then drawn, where nothing is found wrong.
 const DRAWN: usize = 20;
 

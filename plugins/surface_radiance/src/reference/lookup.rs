@@ -70,12 +70,7 @@ fn of_port<'a>(data: &PortData, numbers: &'a [f32]) -> Table<'a> {
 }
 
 /// I sigma_s/d (rho/pi J^1 + k_s J^n); of a directional light nothing.
-fn scattered(
-    medium: &Medium,
-    light: &Light,
-    surface: &Surface,
-    lobes_at: impl Fn(f64, [f64; 2]) -> [f64; 2],
-) -> DVec3 {
+fn scattered(medium: &Medium, light: &Light, surface: &Surface, lobes_at: impl Fn(f64, [f64; 2]) -> [f64; 2]) -> DVec3 {
     if matches!(light, Light::Directional { .. }) {
         return DVec3::ZERO;
     }

@@ -11,7 +11,7 @@ use desk::{ANGLES, Desk, LIGHTS, angle};
 use glam::DVec3;
 use rayon::prelude::*;
 use tyndall_shaders::phase::phase;
-use tyndall_shaders::reflection::{Field, Surface, scattered_from_all_around};
+use tyndall_shaders::reflection::{Field, LobeOverCircles, Surface, scattered_from_all_around};
 use tyndall_shaders::scene::{Light, Medium, Phase};
 
 /// With Lambert's first.
@@ -70,12 +70,14 @@ fn vector([x, y, z]: [f64; 3]) -> String {
 fn fields(kind: &Phase) -> Vec<[(Field, f64); 3]> {
     let around = |d: f64| [0, 1, 2].map(|i| (Field::of_point(kind, EXTINCTION[i] * d), ALBEDO[i] * EXTINCTION[i] / d));
     let sun = ALBEDO.map(|albedo| (Field::of_sun(kind), albedo));
-    distances().into_iter().map(around).chain([sun]).collect()
+    let mut fields: Vec<_> = distances().into_par_iter().map(around).collect();
+    fields.push(sun);
+    fields
 }
 
 /// What reaches a surface with a lobe of factor 1, per light, channel and angle.
-fn truth(fields: &[[(Field, f64); 3]], n: f64) -> Vec<[Vec<f64>; 3]> {
-    let over = |(field, factor): &(Field, f64)| (0..ANGLES).map(|j| factor * field.over_lobe(n, angle(j))).collect();
+fn truth(fields: &[[(Field, f64); 3]], lobe: &[LobeOverCircles]) -> Vec<[Vec<f64>; 3]> {
+    let over = |(field, factor): &(Field, f64)| lobe.iter().map(|at| factor * field.over(at)).collect();
     fields.iter().map(|channels| channels.each_ref().map(over)).collect()
 }
 
@@ -99,12 +101,14 @@ fn worst(found: &[Vec<[f64; 3]>], truth: &[[Vec<f64>; 3]]) -> f64 {
 #[test]
 fn lambert_and_phong_for_every_phase_function() {
     let desk = Desk::new(&SHININESSES);
+    // brute force takes its time: the lobes beside one another, and once for all fields
+    let lobe_at_angles = |n: &f64| (0..ANGLES).map(|j| LobeOverCircles::new(*n, angle(j))).collect::<Vec<_>>();
+    let lobes: Vec<_> = SHININESSES.par_iter().map(lobe_at_angles).collect();
     for (text, kind) in &PHASES {
         let pictures = desk.draw(&lights(), &materials(), &format!("{}, phase: {text}", medium()));
         let fields = fields(kind);
-        // brute force takes its time: the lobes beside one another
         let error_of = |lobe: usize| {
-            let mut expected = truth(&fields, SHININESSES[lobe]);
+            let mut expected = truth(&fields, &lobes[lobe]);
             if lobe == 0 {
                 expected.iter_mut().flatten().flatten().for_each(|value| *value /= PI);
             }
@@ -249,7 +253,7 @@ fn spots() {
             for (term, lobe) in [(0, 0), (1, 3)] {
                 let angles: Vec<usize> = (0..ANGLES).step_by(3).collect();
                 let truth: Vec<f64> = angles
-                    .iter()
+                    .par_iter()
                     .map(|j| {
                         let axis = desk::turned(DVec3::Y, angle(*j));
                         let (diffuse, specular) =
