@@ -1,5 +1,5 @@
 //! Input that nobody means, and that might end a process at once: whatever it is, the program ends with 0, 2 or 3, without a
-//! panic, a stack that overflows or memory that runs out. `whole/fuzz.rs` has many more rounds, within one process.
+//! panic, a stack that overflows or memory that runs out. `cargo xtask fuzz` has many more rounds, within one process.
 
 use tyndall_tests::broken::{Random, mutate};
 use tyndall_tests::{Desk, SCENE};

@@ -8,7 +8,6 @@ mod broken_plugins;
 mod codes;
 mod conformance;
 mod folders;
-mod fuzz;
 mod image_coverage;
 mod kept;
 mod models;

@@ -1,4 +1,4 @@
-//! The project's two commands: `cargo xtask demo` and `cargo xtask test`.
+//! The project's commands: `cargo xtask demo`, `cargo xtask test` and `cargo xtask fuzz`.
 //!
 //! Each does all its own set-up on a fresh machine that has a Rust toolchain and git. Every other program that they
 //! start is printed before it runs. Exit codes are those of `tyndall`: 0 done, 1 a check failed, 2 wrong usage,
@@ -11,6 +11,7 @@ mod command;
 mod compiler;
 mod demo;
 mod driver;
+mod fuzz;
 mod licences;
 mod machine_paths;
 mod one_version;
@@ -26,10 +27,11 @@ use command::Failure;
 use workspace::Workspace;
 
 const USAGE: &str = "\
-Usage: cargo xtask <demo|test>
+Usage: cargo xtask <demo|test|fuzz>
 
   demo   builds, makes sure that there is a GPU driver, renders the demo graphs into out/
   test   builds, makes sure that there are a GPU driver and a browser, runs every check and test
+  fuzz   builds, and breaks files at random for so long: --seconds N [--seed SEED] [--cases N] [--kind KIND]
 
 The environment variable TYNDALL_ASSETS names a folder of real models that some tests read; without it they do
 not run, and `test` reports how many.";
@@ -50,6 +52,7 @@ fn run(arguments: &[String]) -> Result<(), Failure> {
     match arguments[..] {
         ["demo"] => demo::run(&Workspace::here()?),
         ["test"] => test::run(&Workspace::here()?),
+        ["fuzz", ref options @ ..] => fuzz::run(&Workspace::here()?, options),
         ["help" | "--help" | "-h"] => {
             println!("{USAGE}");
             Ok(())

@@ -8,7 +8,7 @@ use crate::command::{Failure, announce, not_started, succeed, works};
 use crate::machine_paths::{Found, search};
 use crate::test_output::Tally;
 use crate::workspace::Workspace;
-use crate::{browser, compiler, driver, licences, one_version};
+use crate::{browser, compiler, driver, fuzz, licences, one_version};
 
 /// The environment variable that names the folder of real models.
 const ASSETS: &str = "TYNDALL_ASSETS";
@@ -46,6 +46,7 @@ pub fn run(workspace: &Workspace) -> Result<(), Failure> {
     }
     report.step("tests", || tests(workspace, &mut tally));
     report.step("robustness", || robustness(workspace));
+    report.step("fuzz", || fuzz::campaign(workspace, &["--seconds", "30", "--seed", "1"]));
     match report.print(tally) {
         0 => Ok(()),
         _ => Err(Failure::check("not everything passed")),

@@ -40,11 +40,16 @@ impl Workspace {
 
     /// The built program, to be run in the workspace's root.
     pub fn tyndall(&self) -> Command {
+        self.program("tyndall")
+    }
+
+    /// A built program of the workspace, to be run in the workspace's root.
+    pub fn program(&self, name: &str) -> Command {
         let target = self.metadata["target_directory"].as_str().unwrap_or("target");
-        let name = format!("tyndall{}", std::env::consts::EXE_SUFFIX);
-        let mut tyndall = Command::new(Path::new(target).join("release").join(name));
-        tyndall.current_dir(&self.root);
-        tyndall
+        let name = format!("{name}{}", std::env::consts::EXE_SUFFIX);
+        let mut program = Command::new(Path::new(target).join("release").join(name));
+        program.current_dir(&self.root);
+        program
     }
 }
 
