@@ -254,5 +254,5 @@ fn chunk_of_spot(spot: SpotBesideRay, exponent: f32, rho: f32, depth_of_v: f32, 
 
 // What a lobe scatters of a directional light toward the eye, 1/sr.
 fn directional_phase(light: Light, lobe: Lobe, ray: Ray) -> f32 {
-    return lobe_or_table(lobe, w_toward_eye(light.direction, ray.direction));
+    return lobe_or_table(lobe, w_toward_eye(light.direction + ray.direction));
 }

@@ -21,7 +21,7 @@ pub fn incident(light: &Light, position: DVec3) -> Incident {
     let at = |light_position: DVec3, intensity: DVec3, radius: f64| {
         let away = light_position - position;
         let d = away.length().max(radius).max(1e-12);
-        Incident { to_light: away.normalize_or(DVec3::Y), irradiance: intensity / (d * d), way: d }
+        Incident { to_light: away / away.length().max(1e-12), irradiance: intensity / (d * d), way: d }
     };
     match *light {
         Light::Directional { direction, irradiance } => Incident { to_light: -direction, irradiance, way: 0.0 },

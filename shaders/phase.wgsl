@@ -16,10 +16,9 @@
 
 #import scene
 
-// w of light that goes one way and is scattered against the direction of a view ray, toward the eye: without cancellation.
-fn w_toward_eye(way: vec3<f32>, ray_direction: vec3<f32>) -> f32 {
-    let half_sum = 0.5 * (way + ray_direction);
-    return dot(half_sum, half_sum);
+// w of light that is scattered toward the eye, by the sum of its direction and that of the view ray: without cancellation.
+fn w_toward_eye(sum_of_directions: vec3<f32>) -> f32 {
+    return 0.25 * dot(sum_of_directions, sum_of_directions);
 }
 
 // Elements of the table: 0 where the phase function is made of lobes. Set from the scene when the pipeline is made.

@@ -81,7 +81,7 @@ fn sunlight(air: Air, light: Light) -> vec3<f32> {
 
 // E (beta_R f_R + beta_M f_HG) of one light, W/(sr m^3); 0 of a light that is not directional.
 fn source_of_sun(air: Air, light: Light, direction: vec3<f32>) -> vec3<f32> {
-    let w = w_toward_eye(light.direction, direction);
+    let w = w_toward_eye(light.direction + direction);
     let source = light.intensity * sunlight(air, light) * angular_scattering(air, w);
     return select(vec3<f32>(0.0), source, light.kind == DIRECTIONAL);
 }

@@ -23,7 +23,7 @@ struct Receiver {
 }
 
 fn received(light: Light, index: u32, receiver: Receiver) -> vec3<f32> {
-    let of_sun = scattered_of_sun(receiver, w_toward_eye(light.direction, receiver.ray.direction));
+    let of_sun = scattered_of_sun(receiver, w_toward_eye(light.direction + receiver.ray.direction));
     return airlight_by_table(table, receiver.weights, light, medium, receiver.ray, receiver.way, of_sun);
 }
 

@@ -58,7 +58,7 @@ fn gather(before: Gathered, light: Light) -> Gathered {
 // S of one light without sigma_s, at a point.
 fn scattered_by(light: Light, at: Gathered) -> vec3<f32> {
     let incident = incident_light(light, at.position);
-    let w = w_toward_eye(-incident.to_light, at.direction);
+    let w = w_toward_eye(at.direction - incident.to_light);
     let r2 = incident.way * incident.way;
     let floored = select(r2 / max(r2, at.least), 1.0, light.kind == DIRECTIONAL);
     return phase_at(phase, w) * floored * incident.irradiance * transmittance(medium, incident.way);

@@ -122,7 +122,7 @@ fn march_directional(marched: Marched, scattering: Phase, ray: Ray, way: f32) ->
         sum += f32(~hidden & 1u) * exp(-medium.extinction * ((f32(i) + 0.5) * dx));
     }
     stopped = stopped || i < count;
-    return medium.scattering * light.intensity * phase_at(scattering, w_toward_eye(light.direction, ray.direction)) * sum * dx;
+    return medium.scattering * light.intensity * phase_at(scattering, w_toward_eye(light.direction + ray.direction)) * sum * dx;
 }
 
 struct Receiver {

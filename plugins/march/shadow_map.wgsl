@@ -82,9 +82,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let tiles = tiles_of(lights.count, params.size);
     let tile = id.xy / tiles.edge;
     let index = tile.y * tiles.across + tile.x;
-    // where no light is mapped the first one, which even an empty list has
     let is_mapped = all(tile < vec2<u32>(tiles.across)) && index < lights.count;
-    let light = lights.items[select(0u, index, is_mapped)];
+    // behind the last light any of them, which is not used
+    let light = lights.items[index];
     let nearest = nearest_along(light.position, normalize(map_direction(tiles, id.xy, id.z)));
     if all(id.xy < size) {
         let seen = select(NOTHING, nearest, is_mapped && light.kind != DIRECTIONAL);

@@ -26,7 +26,7 @@ struct Bound {
 
 // For the next light, after those that come to this sum.
 fn unbounded(before: vec3<f32>) -> Bound {
-    return Bound(LIT, vec3<f32>(0.0), before, vec2<f32>(0.0), 0.0);
+    return Bound(LIT, before, before, vec2<f32>(0.0), 0.0);
 }
 
 fn with_dark_before(bound: Bound, lit: vec2<f32>) -> Bound {

@@ -12,6 +12,6 @@
 var<uniform> ambient: Ambient;
 
 fn ambient_reflected(medium: Medium, diffuse: vec3<f32>, specular: vec3<f32>, shininess: f32) -> vec3<f32> {
-    let around = opacity(medium, ENDLESS) * ambient.radiance;
+    let around = select(vec3<f32>(0.0), ambient.radiance, medium.extinction > vec3<f32>(0.0));
     return around * (diffuse + specular * (2.0 * PI / (shininess + 1.0)));
 }
