@@ -51,7 +51,7 @@ fn stencil_of_surface(ray: ShadowRay) -> i32 {
     var averted = 0;
     var i = ray.first;
     loop {
-        let crossing = crossing_of(shadow_edges.items[shadow_crossings.items[min(i, max(ray.end, 1u) - 1u)].edge], ray);
+        let crossing = crossing_of(shadow_edges.items[shadow_crossings.items[min(i, max(ray.end, 1u) - 1u)].y], ray);
         let counts = i < ray.end && crossing.x > 0.0 && crossing.x < ray.way;
         facing += select(0, 1, counts && crossing.step > 0);
         averted += select(0, 1, counts && crossing.step < 0);
@@ -70,10 +70,10 @@ fn next_plane(ray: ShadowRay, last: Drawn) -> Drawn {
     var number = 0u;
     var i = ray.first;
     loop {
-        let edge_number = shadow_crossings.items[min(i, max(ray.end, 1u) - 1u)].edge;
+        let edge_number = shadow_crossings.items[min(i, max(ray.end, 1u) - 1u)].y;
         let edge = shadow_edges.items[edge_number];
         let crossing = crossing_of(edge, ray);
-        let its_place = length(0.5 * (edge.a + edge.b));
+        let its_place = length(0.5 * (edge.a.xyz + edge.b.xyz));
         let follows = its_place < last.place || (its_place == last.place && edge_number > last.edge);
         let precedes = its_place > place || (its_place == place && edge_number < number);
         let takes = i < ray.end && crossing.x > 0.0 && crossing.x < ray.way && follows && precedes;

@@ -24,58 +24,74 @@ struct Gathered {
     lit: vec4<u32>,             // which lights reach the surface, see lights.wgsl
     ray: Ray,
     way: f32,
-    shadow: ShadowRay,
-    found: LitPart,             // of the ray
-    next: Cursor,               // in what is summed now: in that part, or what `bound` says
-    whole: bool,                // all of it is summed
+    is_new: bool,               // nothing of the light was looked at
+    found: LitParts,            // of the ray
+    part: u32,                  // the one that is summed now
+    next: Cursor,               // in it, or in what `bound` says
     bound: Bound,
 }
 
-// Before the first part of a light.
-fn begun(before: Gathered, light: u32) -> Gathered {
+// With the next parts of the ray that the light reaches.
+fn with_parts(before: Gathered) -> Gathered {
+    let shadow_light = shadow_lights.items[before.light];
+    let shadow = shadow_ray(shadow_light, before.ray, before.way);
     var after = before;
-    after.light = light;
-    after.shadow = shadow_ray(shadow_lights.items[light], before.ray, before.way);
-    after.found = LitPart(vec2<f32>(0.0), start_of_walk(shadow_lights.items[light], after.shadow), false);
-    after.next = Cursor(light, 0u, 0.0);
-    after.whole = true;
-    after.bound = unbounded(before.radiance);
+    if before.is_new {
+        after.found.walk = start_of_walk(shadow_light, shadow);
+        after.bound = unbounded(before.radiance);
+    }
+    after.found = next_lit_parts(shadow, after.found.walk);
+    after.part = 0u;
+    after.next = Cursor(before.light, 0u, 0.0);
     return after;
 }
 
-// Behind a part: what is summed next of this light, or the next one.
-fn behind_part(before: Gathered) -> Gathered {
+// Behind a part: what is summed next of this light.
+fn behind_part(before: Gathered, part: vec2<f32>) -> Gathered {
     var after = before;
     let stage = before.bound.stage;
-    let at_end = before.found.walk.x >= before.shadow.way;
+    let at_end = before.part + 1u >= before.found.count && before.found.walk.x >= min(before.way, BEYOND);
     if at_end && before.found.walk.depth <= 0 && stage == LIT {
         after.lit |= bit_of_light(before.light);
     }
     after.radiance = select(before.radiance, min(before.radiance, before.bound.sum), stage == WHOLE);
-    after.bound = next_stage(before.bound, after.radiance, at_end, nodes);
+    if stage == LIT {
+        after.bound = with_dark_before(before.bound, part);
+    }
+    after.bound = next_stage(after.bound, after.radiance, at_end, nodes);
     after.next = Cursor(before.light, 0u, 0.0);
-    if at_end && after.bound.stage == LIT {
-        after = begun(after, before.light + 1u);
+    if after.bound.stage == LIT {
+        after.part++;
+        after.is_new = at_end;
     }
     return after;
 }
 
-fn gather(before: Gathered, light: Light) -> Gathered {
+// One piece more of the parts that were found.
+fn summed(before: Gathered, light: Light) -> Gathered {
     var after = before;
-    if before.whole && before.bound.stage == LIT {
-        after.found = next_lit_part(before.shadow, before.found.walk);
-        after.bound = with_dark_before(before.bound, after.found.part);
-    }
-    let stage = after.bound.stage;
-    let part = part_of_stage(after.bound, after.found.part, before.shadow.way);
-    let piece = airlight_of_part(before.next, light, medium, phase, before.ray, part, before.shadow.way, nodes, stage == DARK);
+    let stage = before.bound.stage;
+    let lit = parts[min(before.part, PARTS - 1u)];
+    let part = part_of_stage(before.bound, lit, before.way);
+    let piece = airlight_of_part(before.next, light, medium, phase, before.ray, part, before.way, nodes, stage == DARK);
     after.radiance += select(vec3<f32>(0.0), piece.radiance, stage == LIT);
     after.bound.sum += select(piece.radiance, vec3<f32>(0.0), stage == LIT);
     after.next = piece.next;
-    after.whole = piece.next.light > before.light;
-    if after.whole {
-        after = behind_part(after);
+    if piece.next.light > before.light {
+        after = behind_part(after, lit);
     }
+    return after;
+}
+
+// First the lit parts are found, and then summed: see `next_lit_parts`.
+fn gather(before: Gathered, light: Light) -> Gathered {
+    var after = with_parts(before);
+    loop {
+        after = summed(after, light);
+        if after.part >= after.found.count { break; }
+    }
+    stopped = stopped || after.part < after.found.count;
+    after.light += select(0u, 1u, after.is_new);
     return after;
 }
 
@@ -84,8 +100,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = textureDimensions(radiance);
     var start = Gathered();
     start.ray = ray_of_pixel(camera, id.xy, size);
+    start.is_new = true;
     start.way = textureLoad(depth, id.xy, 0).x;
-    let gathered = gather_lights(begun(start, 0u));
+    let gathered = gather_lights(start);
     if all(id.xy < size) {
         textureStore(radiance, id.xy, vec4<f32>(gathered.radiance, 1.0));
         textureStore(lit, id.xy, gathered.lit);

@@ -42,26 +42,21 @@ struct ShadowSlices {
     items: array<u32>,
 }
 
-// An edge in a slice, in the order of `nearest`, from the axis outward.
-struct ShadowCrossing {
-    nearest: f32,               // n/r of its points in the slice at most, 1/m
-    edge: u32,                  // among the edges
-}
-
+// Edges in a slice, from the axis outward as the light sees them: in the upper 22 bits of x those of n/r of an edge's points in
+// the slice at most, 1/m; in the lower 10 of the cosine of their angle with the axis, as the eye sees them, at least; in y the
+// edge's number. A vector, as all that a walk reads: software Vulkan reads each member of a struct by itself.
 struct ShadowCrossings {
     count: u32,
     pad0: u32,
     pad1: u32,
     pad2: u32,
-    items: array<ShadowCrossing>,
+    items: array<vec2<u32>>,
 }
 
 // Of a silhouette, or of a triangle that touches the eye; it runs counter-clockwise about the axis.
 struct ShadowEdge {
-    a: vec3<f32>,               // m, frame of the light
-    step: i32,                  // triangles beyond it less those before it, as the light sees it; at the eye the other way round
-    b: vec3<f32>,
-    away: f32,                  // of a triangle that touches the eye: z where the axis meets its plane, m, below 0 if the eye is behind; else 0
+    a: vec4<f32>,               // m, frame of the light; w: triangles beyond it less those before it, as the light sees it; at the eye the other way round
+    b: vec4<f32>,               // m; w: `away`, of a triangle that touches the eye: z where the axis meets its plane, m, below 0 if the eye is behind; else 0
 }
 
 struct ShadowEdges {

@@ -72,6 +72,8 @@ struct Crossing {
 }
 
 fn crossing_of(edge: ShadowEdge, ray: ShadowRay) -> Crossing {
+    let step = i32(edge.a.w);
+    let away = edge.b.w;
     let side_a = ray.toward.x * edge.a.y - ray.toward.y * edge.a.x;
     let side_b = ray.toward.x * edge.b.y - ray.toward.y * edge.b.x;
     let r_a = dot(ray.toward, edge.a.xy);
@@ -84,18 +86,27 @@ fn crossing_of(edge: ShadowEdge, ray: ShadowRay) -> Crossing {
     let z = (side_b * edge.a.z - side_a * edge.b.z) * inverse;
     let from_ray = ray.sine * z - ray.cosine * r;
     let v = ray.sine + ray.nearness * from_ray;
-    let at_eye = edge.away != 0.0;
-    let hides = select(from_ray < 0.0 && v > 0.0, is_hidden_at_eye(edge, ray, r, from_ray), at_eye);
+    let at_eye = away != 0.0;
+    let hides = select(from_ray < 0.0 && v > 0.0, is_hidden_at_eye(away, ray, r, from_ray), at_eye);
     let behind = crossed && ahead && hides;
     let x = select(r / max(v, 1e-30), 0.0, at_eye);
-    return Crossing(select(BEYOND, x, behind), select(0, select(-edge.step, edge.step, forward), behind));
+    return Crossing(select(BEYOND, x, behind), select(0, select(-step, step, forward), behind));
 }
 
 // Whether the triangle of an edge touches the eye and hides the light from the ray's first metre on. An eye behind it is in
 // its shadow whatever the ray; else a ray that passes behind it is, unless it meets the triangle after all and ends there.
-fn is_hidden_at_eye(edge: ShadowEdge, ray: ShadowRay, r: f32, from_ray: f32) -> bool {
-    let met = edge.away * r / max(ray.sine * edge.away - from_ray, 1e-30);
-    return edge.away < 0.0 || (from_ray < 0.0 && ray.way > 2.0 * met);
+fn is_hidden_at_eye(away: f32, ray: ShadowRay, r: f32, from_ray: f32) -> bool {
+    let met = away * r / max(ray.sine * away - from_ray, 1e-30);
+    return away < 0.0 || (from_ray < 0.0 && ray.way > 2.0 * met);
+}
+
+// Of a crossing: the bits of its cosine.
+const COSINE_BITS: u32 = 0x3ffu;
+
+// Whether some of an edge may be between the ray and the light. What makes a smaller angle with the axis than the ray does, as
+// the eye sees it, is beyond the ray; without a look at its edge that is most of what a ray through a tree meets.
+fn may_hide(crossing: u32, ray: ShadowRay) -> bool {
+    return ray.cosine + 1e-6 >= f32(crossing & COSINE_BITS) * (2.0 / f32(COSINE_BITS)) - 1.0;
 }
 
 // Whether all that has n/r = `ratio` or less is crossed at x or farther. Of what may be anywhere the ratio says nothing.
@@ -198,24 +209,57 @@ fn step_to_next(lit: LitPart, way: f32) -> LitPart {
     return next;
 }
 
-// The next lit part of the ray, empty where there is none: then the walk stands at the ray's end, as it does behind the
-// last part if that is the end's; else where the next shadow begins.
-fn next_lit_part(ray: ShadowRay, walk: ShadowWalk) -> LitPart {
-    var lit = LitPart(vec2<f32>(max(walk.x, 0.0)), walk, false);
-    loop {
-        let crossing = shadow_crossings.items[min(lit.walk.next, max(ray.end, 1u) - 1u)];
-        let here = crossing_of(shadow_edges.items[crossing.edge], ray);
-        let x = min(lit.walk.ahead.x.x, ray.way);
-        let is_next_lost = lit.walk.lost <= x;
-        let is_next_known = lit.walk.next >= ray.end || is_beyond(crossing.nearest, ray, x);
-        if is_next_known && !is_next_lost {
-            lit = step_to_next(lit, ray.way);
-        }
-        lit.walk = look_at(here, ray, lit.walk);
-        if is_next_lost {
-            lit.walk = begun_anew(ray, lit.walk);
-        }
-        if lit.done { break; }
+// From where a walk stands.
+fn from_here(walk: ShadowWalk) -> LitPart {
+    return LitPart(vec2<f32>(max(walk.x, 0.0)), walk, false);
+}
+
+// One crossing of the slice farther. Where that comes to the end of a part, it is done.
+fn walked(before: LitPart, ray: ShadowRay) -> LitPart {
+    var lit = before;
+    let crossing = shadow_crossings.items[min(lit.walk.next, max(ray.end, 1u) - 1u)];
+    var here = Crossing(BEYOND, 0);
+    if lit.walk.next < ray.end && may_hide(crossing.x, ray) {
+        here = crossing_of(shadow_edges.items[crossing.y], ray);
+    }
+    let x = min(lit.walk.ahead.x.x, ray.way);
+    let is_next_lost = lit.walk.lost <= x;
+    let is_next_known = lit.walk.next >= ray.end || is_beyond(bitcast<f32>(crossing.x & ~COSINE_BITS), ray, x);
+    if is_next_known && !is_next_lost {
+        lit = step_to_next(lit, ray.way);
+    }
+    lit.walk = look_at(here, ray, lit.walk);
+    if is_next_lost {
+        lit.walk = begun_anew(ray, lit.walk);
     }
     return lit;
+}
+
+// As many lit parts as are found at once: software Vulkan runs threads in lockstep, and were each part summed as soon as it
+// is found, every thread would wait for the longest walk to one.
+const PARTS: u32 = 32u;
+
+// In order. The last of a ray is empty where the ray ends in shadow.
+var<private> parts: array<vec2<f32>, PARTS>;
+
+// How many of `parts` there are now, and where the walk stands behind them: at the ray's end, or where a shadow begins.
+struct LitParts {
+    count: u32,
+    walk: ShadowWalk,
+}
+
+// Fills `parts` with the next ones of the ray: as many as there is room for, at least one.
+fn next_lit_parts(ray: ShadowRay, walk: ShadowWalk) -> LitParts {
+    var lit = from_here(walk);
+    var count = 0u;
+    loop {
+        lit = walked(lit, ray);
+        if lit.done {
+            parts[count] = lit.part;
+            count++;
+            lit = from_here(lit.walk);
+        }
+        if count >= PARTS || lit.walk.x >= ray.way { break; }
+    }
+    return LitParts(count, lit.walk);
 }

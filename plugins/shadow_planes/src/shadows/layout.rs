@@ -28,26 +28,16 @@ wgsl_struct! {
     }
 }
 
-wgsl_struct! {
-    /// `ShadowCrossing`.
-    pub(crate) struct ShadowCrossing {
-        /// n/r at most.
-        pub nearest: f32,
-        /// Among the shadow edges.
-        pub edge: u32,
-    }
-}
+/// An edge in a slice: the bits of n/r at most, in single precision, and its number among the shadow edges.
+pub(crate) type ShadowCrossing = [u32; 2];
 
 wgsl_struct! {
     /// `ShadowEdge`.
     pub(crate) struct ShadowEdge {
-        /// m, in the frame of the light.
-        pub a: [f32; 3],
-        /// Triangles beyond it less those before it; of a triangle that touches the eye the other way round.
-        pub step: i32,
-        /// m, in the frame of the light.
-        pub b: [f32; 3],
-        /// Where the axis meets the plane of a triangle that touches the eye, m from the eye, below 0 before it; else 0.
-        pub away: f32,
+        /// m, in the frame of the light; then triangles beyond it less those before it, of a triangle that touches the eye the
+        /// other way round.
+        pub a: [f32; 4],
+        /// m, in the frame of the light; then where the axis meets the plane of a triangle that touches the eye, m from the eye, below 0 before it; else 0.
+        pub b: [f32; 4],
     }
 }

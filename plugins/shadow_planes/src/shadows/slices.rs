@@ -124,13 +124,42 @@ impl PlacedEdge {
         PlacedEdge { step: -self.step, away: Some(away as f32), ..self }
     }
 
+    /// The least cosine of the angle between the axis and a point of the edge, as the eye sees it.
+    fn least_cosine(&self) -> f64 {
+        let (a, b) = (self.a.normalize(), self.b.normalize());
+        let normal = a.cross(b).normalize_or_zero();
+        // of the whole circle, at the point that is farthest from the axis
+        let farthest = normal * normal.z - DVec3::Z;
+        let is_within = normal.dot(a.cross(farthest)) >= 0.0 && normal.dot(farthest.cross(b)) >= 0.0;
+        let of_ends = a.z.min(b.z);
+        if normal == DVec3::ZERO {
+            -1.0
+        } else if is_within {
+            -farthest.length()
+        } else {
+            of_ends
+        }
+    }
+
+    /// The same as walks hold it. What is at the eye may be at any angle.
+    pub(crate) fn cosine_bits(&self) -> u32 {
+        let along = self.b - self.a;
+        let part = (-self.a.dot(along) / along.length_squared()).clamp(0.0, 1.0);
+        let nearest = (self.a + along * part).length();
+        // where the walk meets an edge it errs by a part of the edge's farther end
+        let slack = COSINE_SLACK * self.a.length().max(self.b.length()) / nearest;
+        let cosine = self.least_cosine() - slack;
+        if self.is_at_eye() || !cosine.is_finite() { 0 } else { cosine_bits(cosine) }
+    }
+
     /// Whether it is of a triangle that touches the eye.
     pub(crate) fn is_at_eye(&self) -> bool {
         self.away.is_some()
     }
 
     pub(crate) fn encode(&self) -> ShadowEdge {
-        ShadowEdge { a: floats(self.a), step: self.step, b: floats(self.b), away: self.away.unwrap_or(0.0) }
+        let with = |place: DVec3, last: f32| place.as_vec3().extend(last).to_array();
+        ShadowEdge { a: with(self.a, self.step as f32), b: with(self.b, self.away.unwrap_or(0.0)) }
     }
 }
 
@@ -143,6 +172,9 @@ const CROSSINGS_OF_LIGHT: usize = 1 << 22;
 
 /// Crossings of all lights at most, as many as a binding of 128 MiB holds, which every device has, beside its header.
 pub(crate) const CROSSINGS_MAX: usize = (1 << 24) - 2;
+
+/// More of an angle, rad, than single precision can be wrong about where both ends of an edge are as far away.
+const COSINE_SLACK: f64 = 1e-5;
 
 /// Fewer crossings are not worth a thread.
 const CROSSINGS_OF_THREAD: usize = 1 << 14;
@@ -213,7 +245,7 @@ fn fill(spans: &[Span], borders: &Borders, range: Range<usize>, ends: &[usize], 
         for (slice, nearest) in span.crossings(borders) {
             if range.contains(&slice) {
                 let next = &mut next[slice - range.start];
-                keys[*next] = key(nearest, span.edge);
+                keys[*next] = key(with_cosine(nearest, span.least_cosine), span.edge);
                 *next += 1;
             }
         }
@@ -222,21 +254,35 @@ fn fill(spans: &[Span], borders: &Borders, range: Range<usize>, ends: &[usize], 
         keys[start(slice) - first..ends[slice] - first].sort_unstable();
     }
     for (crossing, key) in crossings.iter_mut().zip(keys) {
-        *crossing = ShadowCrossing { nearest: nearest_of(key), edge: key as u32 };
+        *crossing = [nearest_of(key), key as u32];
     }
 }
 
 /// A number that is the smaller the nearer a crossing is, and the smaller its edge's number where two are equally near.
-fn key(nearest: f32, edge: u32) -> u64 {
+fn key(bits: u32, edge: u32) -> u64 {
     // The bits of floating-point numbers, the sign apart, are in the order of the numbers.
-    let bits = nearest.to_bits();
     let descending = if bits & SIGN == 0 { !(bits | SIGN) } else { bits };
     u64::from(descending) << 32 | u64::from(edge)
 }
 
-fn nearest_of(key: u64) -> f32 {
+fn nearest_of(key: u64) -> u32 {
     let descending = (key >> 32) as u32;
-    f32::from_bits(if descending & SIGN == 0 { !descending & !SIGN } else { descending })
+    if descending & SIGN == 0 { !descending & !SIGN } else { descending }
+}
+
+/// `COSINE_BITS` of `shadows.wgsl`.
+const COSINE_BITS: u32 = 0x3ff;
+
+/// The first number of a crossing: `nearest`, rounded up, its lower bits those of the cosine, rounded down.
+fn with_cosine(nearest: f32, cosine: u32) -> u32 {
+    let bits = nearest.to_bits();
+    let above = if bits & SIGN == 0 { bits + COSINE_BITS } else { bits };
+    above & !COSINE_BITS | cosine
+}
+
+/// What stands for a cosine, or for a smaller one.
+fn cosine_bits(cosine: f64) -> u32 {
+    ((cosine + 1.0) * 0.5 * f64::from(COSINE_BITS)).clamp(0.0, f64::from(COSINE_BITS)) as u32
 }
 
 const SIGN: u32 = 1 << 31;
@@ -248,9 +294,42 @@ mod tests {
     #[test]
     fn keys_sort_from_the_nearest_to_the_farthest() {
         let crossings = [(f32::MAX, 2), (3.5, 0), (3.5, 7), (1e-30, 1), (0.0, 4), (-0.0, 1), (-2.0, 3), (f32::MIN, 0)];
-        let keys = crossings.map(|(nearest, edge)| key(nearest, edge));
+        let keys = crossings.map(|(nearest, edge)| key(nearest.to_bits(), edge));
         assert!(keys.is_sorted());
-        assert_eq!(keys.map(|key| (nearest_of(key), key as u32)), crossings);
+        assert_eq!(keys.map(|key| (f32::from_bits(nearest_of(key)), key as u32)), crossings);
+    }
+
+    /// What rounding leaves is a bound still, and in the same order.
+    #[test]
+    fn a_cosine_beside_what_is_nearest_loosens_it_upward() {
+        let nearest = [f32::MIN, -3.5, -1e-30, 0.0, 1e-30, 1.000_001, 3.5, 1e30];
+        let loosened = nearest.map(|nearest| f32::from_bits(with_cosine(nearest, 0x155) & !COSINE_BITS));
+        assert!(loosened.is_sorted());
+        for (nearest, loosened) in nearest.into_iter().zip(loosened) {
+            assert!(loosened >= nearest && loosened - nearest <= 2e-4 * nearest.abs() + 2e-42, "{nearest} {loosened}");
+        }
+        assert_eq!(with_cosine(f32::MAX, 0) & !COSINE_BITS, f32::INFINITY.to_bits());
+    }
+
+    /// Of an edge that passes the way to the light, the least cosine is not at an end.
+    #[test]
+    fn least_cosine_of_an_edge() {
+        let edge = |a, b| PlacedEdge { a, b, step: 1, away: None };
+        let beyond = edge(DVec3::new(1.0, 0.1, -1.0), DVec3::new(-1.0, 0.1, -1.0));
+        let sampled = |edge: &PlacedEdge| {
+            let cosine = |i: u32| edge.a.lerp(edge.b, f64::from(i) / 1000.0).normalize().z;
+            (0..=1000).map(cosine).fold(1.0, f64::min)
+        };
+        let mut random = 1_u32;
+        let mut number = move || {
+            random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(random >> 8) / f64::from(1 << 23) - 1.0
+        };
+        let mut point = || DVec3::new(number(), number(), number());
+        for edge in std::iter::once(beyond).chain((0..500).map(|_| edge(point(), point()))) {
+            let (found, expected) = (edge.least_cosine(), sampled(&edge));
+            assert!(found <= expected + 1e-12 && found >= expected - 1e-2, "{edge:?}: {found} {expected}");
+        }
     }
 
     /// Edges of a ring of small squares about the axis, seen from the side, all within a degree of one another or all round.

@@ -89,6 +89,8 @@ impl Borders {
 pub(crate) struct Span {
     /// Its number.
     pub edge: u32,
+    /// Of its angle with the axis, see [`PlacedEdge::cosine_bits`].
+    pub least_cosine: u32,
     /// Its slices; below 0, and above their number, where it passes the end of the turn.
     slices: RangeInclusive<i64>,
     nearest: Nearest,
@@ -114,7 +116,7 @@ impl Span {
             Some(range) if !edge.is_at_eye() => Nearest::of(edge, frame, range),
             _ => Nearest::Everywhere(f64::from(f32::MAX)),
         };
-        Span { edge: number, slices: borders.spanned(range), nearest }
+        Span { edge: number, least_cosine: edge.cosine_bits(), slices: borders.spanned(range), nearest }
     }
 
     /// The slices, from 0 on.

@@ -50,13 +50,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let query = cases[min(id.x, arrayLength(&cases) - 1u)];
     let light = shadow_lights.items[query.light];
     let ray = shadow_ray(light, Ray(query.eye, query.direction), query.way);
-    var found = LitPart(vec2<f32>(0.0), start_of_walk(light, ray), false);
+    var found = LitParts(0u, start_of_walk(light, ray));
     // length, sum of the starts, number
     var sum = vec3<f32>(0.0);
     loop {
-        found = next_lit_part(ray, found.walk);
-        let length = found.part.y - found.part.x;
-        sum += select(vec3<f32>(0.0), vec3<f32>(length, found.part.x * length, 1.0), length > 0.0);
+        found = next_lit_parts(ray, found.walk);
+        for (var i = 0u; i < found.count; i++) {
+            let length = parts[i].y - parts[i].x;
+            sum += select(vec3<f32>(0.0), vec3<f32>(length, parts[i].x * length, 1.0), length > 0.0);
+        }
         if found.walk.x >= ray.way { break; }
     }
     if id.x < arrayLength(&cases) {
