@@ -43,15 +43,19 @@ struct Segment {
 }
 
 impl Round {
-    /// A round primitive; `world_from_own` must scale uniformly.
+    /// A round primitive; `None` of others, and where `world_from_own` scales axes differently, which leaves it round
+    /// no longer.
     pub fn new(primitive: Primitive, world_from_own: DAffine3) -> Option<Self> {
         let shape = match primitive {
             Primitive::Sphere { radius } => Shape::Sphere { radius },
             Primitive::Torus { major, minor } => Shape::Torus { major, minor },
             Primitive::Box { .. } | Primitive::Plane { .. } => return None,
         };
-        let scale = world_from_own.matrix3.determinant().cbrt();
-        Some(Self { from_world: world_from_own.inverse(), scale, shape })
+        let axes = world_from_own.matrix3;
+        let lengths = DVec3::new(axes.x_axis.length(), axes.y_axis.length(), axes.z_axis.length());
+        let scale = lengths.x;
+        let uniform = (lengths - DVec3::splat(scale)).abs().max_element() <= 1e-9 * scale;
+        uniform.then_some(Self { from_world: world_from_own.inverse(), scale, shape })
     }
 
     /// Where a ray from outside first meets it within `length`, m.
@@ -307,6 +311,16 @@ mod tests {
         assert!(from < 1e-12 && to == f64::INFINITY, "{from} {to}");
         assert!((ball.entry(&Ray { origin: DVec3::new(-9.0, 0.0, 0.0), ..ray }, 20.0).unwrap() - 8.0).abs() < 1e-12);
         assert_eq!(ball.entry(&ray, f64::INFINITY), None);
+    }
+
+    /// An ellipsoid is left to its triangles; a mirrored ball is a ball.
+    #[test]
+    fn what_is_scaled_along_axes_is_not_round() {
+        let ball = |scale: DVec3| Round::new(Primitive::Sphere { radius: 1.0 }, DAffine3::from_scale(scale));
+        assert!(ball(DVec3::new(1.0, 2.0, 1.0)).is_none());
+        let ray = Ray { origin: DVec3::new(-9.0, 0.0, 0.0), direction: DVec3::X };
+        let entry = ball(DVec3::new(-2.0, 2.0, 2.0)).unwrap().entry(&ray, 20.0).unwrap();
+        assert!((entry - 7.0).abs() < 1e-12, "{entry}");
     }
 
     /// The mesh that stands for a torus is within 6e-4 of its tube, and so are the shadows of both.

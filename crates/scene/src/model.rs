@@ -165,8 +165,8 @@ pub struct Object {
     pub translation: Animated,
     /// About the origin, before the translation.
     pub rotation: DQuat,
-    /// Above 0, before the rotation.
-    pub scale: f64,
+    /// Along each axis, before the rotation; none is 0, and one below 0 mirrors.
+    pub scale: DVec3,
     /// The nodes of a glTF file, parents before children; empty for a primitive.
     pub(crate) nodes: Arc<Vec<Node>>,
     /// Those that plugins bring.
@@ -176,7 +176,7 @@ pub struct Object {
 impl Object {
     /// world ← object.
     pub fn world_from_object(&self, time: f64) -> DAffine3 {
-        DAffine3::from_scale_rotation_translation(DVec3::splat(self.scale), self.rotation, self.translation.at(time))
+        DAffine3::from_scale_rotation_translation(self.scale, self.rotation, self.translation.at(time))
     }
 }
 

@@ -182,6 +182,39 @@ fn order_is_scale_rotate_translate() {
     assert!(distance < 1e-5, "{:?}", vertices[0]);
 }
 
+/// A ball becomes an ellipsoid: its normals are the gradient of (x/2)² + (y/0.5)² + z², whichever axes are mirrored.
+#[test]
+fn three_numbers_scale_each_axis() {
+    for signs in [glam::DVec3::ONE, glam::DVec3::new(-1.0, 1.0, 1.0), glam::DVec3::new(-1.0, -1.0, -1.0)] {
+        let [x, y, z] = (signs * glam::DVec3::new(2.0, 0.5, 1.0)).to_array();
+        let scene = with_camera(&format!("objects: [(mesh: Sphere(radius: 1), scale: ({x}, {y}, {z}))]"));
+        let vertices: Vec<layout::Vertex> = items(&scene, "vertices");
+        let gradient = |p: glam::DVec3| (p / glam::DVec3::new(4.0, 0.25, 1.0)).normalize();
+        for vertex in &vertices {
+            let [position, normal] = [vertex.position, vertex.normal].map(|v| glam::Vec3::from_array(v).as_dvec3());
+            assert!((gradient(position) - normal).length() < 1e-5, "{position} {normal}");
+        }
+        // Triangles still run counter-clockwise from outside, and the ellipsoid is closed as the ball was.
+        let triangles: Vec<[u32; 4]> = items(&scene, "triangles");
+        let corner = |index: u32| glam::Vec3::from_array(vertices[index as usize].position).as_dvec3();
+        let volume =
+            triangles.iter().map(|[a, b, c, _]| corner(*a).dot(corner(*b).cross(corner(*c)))).sum::<f64>() / 6.0;
+        assert!((volume / (4.0 / 3.0 * std::f64::consts::PI) - 1.0).abs() < 1e-3, "{signs}: {volume}");
+        let edges = &scene.adjacency()[0].edges;
+        assert!(edges.iter().all(|edge| edge.kind() == tyndall_scene::adjacency::EdgeKind::Manifold), "{signs}");
+    }
+    // One number is the same along all axes.
+    let with = |scale: &str| with_camera(&format!("objects: [(mesh: Box(size: (1, 2, 3)), scale: {scale})]"));
+    assert_eq!(with("3").encode(0.0, 1.0).items, with("(3, 3, 3)").encode(0.0, 1.0).items);
+    for (scale, message) in
+        [("(1, 0, 1)", "`scale` is 0; it must be above or below 0"), ("(1, 2)", "a tuple of 3 numbers")]
+    {
+        let text = format!("({CAMERA} objects: [(mesh: Box(size: (1, 1, 1)), scale: {scale})])");
+        let told = render_text(&read_with(&text, &[]).expect_err("it is wrong"), false);
+        assert!(told.contains(message), "{told}");
+    }
+}
+
 #[test]
 fn keys_move_what_they_should_and_nothing_else() {
     let scene = read(

@@ -1,7 +1,7 @@
 //! `objects: [(mesh, scale, rotation, translation, material, casts_shadow)]`.
 
 use glam::{DQuat, DVec3};
-use tyndall_document::{Decoder, Diagnostic, Fields, Node, OUT_OF_RANGE, Span};
+use tyndall_document::{Decoder, Diagnostic, Fields, Node, OUT_OF_RANGE, Span, Value};
 
 use super::{Reader, given, parts_of, path, variant};
 use crate::animate::Animated;
@@ -20,7 +20,7 @@ pub(crate) struct ObjectDraft {
     pub mesh: MeshDraft,
     pub translation: Animated,
     pub rotation: DQuat,
-    pub scale: f64,
+    pub scale: DVec3,
     pub material: Option<Material>,
     pub casts_shadow: bool,
     /// Those that plugins bring.
@@ -48,7 +48,7 @@ fn object(decoder: &mut SceneReader<'_>, node: &Node) -> Option<ObjectDraft> {
     let translation =
         given(fields.get("translation"), Animated::Constant(DVec3::ZERO), |n| animated(decoder, n, "translation"));
     let rotation = given(fields.get("rotation"), DQuat::IDENTITY, |n| rotation(decoder, n));
-    let scale = given(fields.get("scale"), 1.0, |n| number(decoder, n, "scale", Range::Positive));
+    let scale = given(fields.get("scale"), DVec3::ONE, |n| scale(decoder, n));
     let material = given(fields.get("material"), None, |n| material(decoder, n).map(Some));
     let casts_shadow = given(fields.get("casts_shadow"), true, |n| decoder.bool(n));
     Some(ObjectDraft {
@@ -67,6 +67,14 @@ fn rotation(decoder: &mut Decoder, node: &Node) -> Option<DQuat> {
     let axis = direction(decoder, parts[0], "axis");
     let angle = number(decoder, parts[1], "angle", Range::Any);
     Some(DQuat::from_axis_angle(axis?.normalize(), angle?.to_radians()))
+}
+
+/// One number above 0, or three that are not 0: below 0 they mirror.
+fn scale(decoder: &mut Decoder, node: &Node) -> Option<DVec3> {
+    match node.value {
+        Value::Tuple(_) | Value::List(_) => vector(decoder, node, "scale", Range::NotZero),
+        _ => number(decoder, node, "scale", Range::Positive).map(DVec3::splat),
+    }
 }
 
 fn material(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Material> {

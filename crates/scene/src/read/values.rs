@@ -19,6 +19,8 @@ pub enum Range {
     NotNegative,
     /// Above 0.
     Positive,
+    /// Above or below 0.
+    NotZero,
     /// 0 to 1, both included.
     Unit,
     /// Between the two, both excluded.
@@ -47,6 +49,7 @@ impl Range {
             Range::NotNegative => value >= 0.0,
             // What becomes 0 in single precision is 0 for a shader.
             Range::Positive => value as f32 > 0.0,
+            Range::NotZero => value as f32 != 0.0,
             Range::Unit => (0.0..=1.0).contains(&value),
             Range::Between(low, high) => value > low && value < high,
             Range::Within(low, high) => (low..=high).contains(&value),
@@ -60,6 +63,7 @@ impl Range {
             Range::Any => "fit single precision".to_owned(),
             Range::NotNegative => "be 0 or more".to_owned(),
             Range::Positive => "be above 0".to_owned(),
+            Range::NotZero => "be above or below 0".to_owned(),
             Range::Unit => "lie in 0..1".to_owned(),
             Range::Between(low, high) => format!("lie between {low} and {high}, both excluded"),
             Range::Within(low, high) => format!("lie in {low}..{high}"),
