@@ -160,6 +160,9 @@ pub struct Material {
     pub shininess_rank: u32,
     /// Index into the textures; its colour multiplies `diffuse`.
     pub texture: Option<usize>,
+    /// Of a metallic-roughness material, whose base colour is `diffuse`: metallic, k_s of F₀ = 1, and k_s with which the
+    /// lobe alone reflects everything.
+    pub metallic_roughness: Option<[f64; 3]>,
 }
 
 /// What a texture coordinate outside 0..1 reads.
@@ -193,6 +196,6 @@ pub struct Texture {
     pub wrap: [Wrap; 2],
     /// Between texels.
     pub filter: Filter,
-    /// Red, green and blue, sRGB, row by row from the top.
-    pub texels: Vec<[u8; 3]>,
+    /// Red, green and blue, sRGB, and a metallic factor, linear, row by row from the top.
+    pub texels: Vec<[u8; 4]>,
 }

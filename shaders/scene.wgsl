@@ -167,15 +167,17 @@ struct Objects {
 
 const NO_TEXTURE: u32 = 0xffffffffu;
 
+// Of a metallic-roughness material (peak above 0) diffuse is the base colour, and rho, k_s follow from it: see the scene
+// crate's `microfacets`.
 struct Material {
     diffuse: vec3<f32>,         // Lambert reflectance rho; the BRDF is rho/pi
     texture: u32,               // index into the textures, its colour multiplies diffuse; NO_TEXTURE for none
     specular: vec3<f32>,        // k_s of the Phong lobe
     shininess: f32,             // n of the Phong lobe
     shininess_rank: u32,        // of n among the shininesses of the scene, growing, from 1; 0 where k_s is 0
-    pad0: u32,
-    pad1: u32,
-    pad2: u32,
+    metallic: f32,              // times the texture's alpha
+    peak: f32,                  // k_s of F_0 = 1
+    most: f32,                  // k_s with which the lobe alone reflects everything
 }
 
 struct Materials {
@@ -209,7 +211,7 @@ struct Textures {
     items: array<Texture>,
 }
 
-// RGBA, 8 bits each, the first in the lowest bits, sRGB.
+// RGBA, 8 bits each, the first in the lowest bits: a colour, sRGB, and a metallic factor, linear.
 struct Texels {
     items: array<u32>,
 }

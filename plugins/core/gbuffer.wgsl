@@ -48,17 +48,18 @@ fn wrapped(at: i32, size: i32, mode: u32) -> i32 {
     }
 }
 
-fn texel(t: Texture, at: vec2<i32>) -> vec3<f32> {
+fn texel(t: Texture, at: vec2<i32>) -> vec4<f32> {
     let x = wrapped(at.x, i32(t.width), t.sampling & 3u);
     let y = wrapped(at.y, i32(t.height), (t.sampling >> 2u) & 3u);
     let packed = texels.items[t.offset + u32(y) * t.width + u32(x)];
-    return linear_from_srgb(unpack4x8unorm(packed).rgb);
+    let unpacked = unpack4x8unorm(packed);
+    return vec4(linear_from_srgb(unpacked.rgb), unpacked.a);
 }
 
 // The nearest texel, or bilinear between texel centres, of linear values; no mip levels, since nothing is anti-aliased.
-fn base_color(index: u32, uv: vec2<f32>) -> vec3<f32> {
+fn texture_at(index: u32, uv: vec2<f32>) -> vec4<f32> {
     if index == NO_TEXTURE {
-        return vec3(1.0);
+        return vec4(1.0);
     }
     let t = textures.items[index];
     let place = uv * vec2(f32(t.width), f32(t.height));
@@ -119,15 +120,23 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let object = objects.items[indices.w];
     let m = materials.items[object.material];
     let uv = (1.0 - u - v) * vec2(va.u, va.v) + u * vec2(vb.u, vb.v) + v * vec2(vc.u, vc.v);
-    var diffuse = m.diffuse * base_color(m.texture, uv);
+    let painted = texture_at(m.texture, uv);
+    var diffuse = m.diffuse * painted.rgb;
     if vertex_colors.count > 0u {
         let a = vertex_colors.items[indices.x].rgb;
         let b = vertex_colors.items[indices.y].rgb;
         let c = vertex_colors.items[indices.z].rgb;
         diffuse *= (1.0 - u - v) * a + u * b + v * c;
     }
+    var specular = m.specular;
+    if m.peak > 0.0 {
+        let metallic = m.metallic * painted.a;
+        specular = m.peak * mix(vec3(0.04), diffuse, metallic);
+        diffuse *= 1.0 - metallic;
+        specular = min(specular, m.most * (1.0 - diffuse));
+    }
     textureStore(depth, id.xy, vec4(t));
     textureStore(normal, id.xy, vec4(n, 1.0));
     textureStore(material, id.xy, 0, vec4(diffuse, f32(m.shininess_rank)));
-    textureStore(material, id.xy, 1, vec4(m.specular, m.shininess));
+    textureStore(material, id.xy, 1, vec4(specular, m.shininess));
 }

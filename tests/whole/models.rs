@@ -1,4 +1,4 @@
-//! What is seen of glTF models: colours of vertices, textures without a filter.
+//! What is seen of glTF models: colours of vertices, textures without a filter, metal.
 
 use tyndall_image::Image;
 use tyndall_tests::{Desk, shipped};
@@ -61,6 +61,12 @@ fn is(image: &Image, [x, y]: [u32; 2], expected: [f32; 3]) {
     assert!(is_near, "pixel {x} {y}: {pixel:?}, expected {expected:?}");
 }
 
+/// What is seen of a base colour that is not metal and wholly rough: besides it k_s = 0.04/(4π), unless more light would
+/// leave than arrives.
+fn rough(base: [f32; 3]) -> [f32; 3] {
+    base.map(|rho| rho + 0.01f32.min((1.0 - rho) / 2.0))
+}
+
 const MATTE: &str =
     r#""materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.8, 0.8, 1], "metallicFactor": 0}}]"#;
 
@@ -70,20 +76,34 @@ fn vertex_colours_are_seen() {
     // As floats, bytes and shorts.
     for accessor in [2, 3, 4] {
         let image = seen(&square(&format!(r#""COLOR_0": {accessor}"#), MATTE), "");
-        is(&image, [32, 32], [0.8, 0.0, 0.0]);
-        is(&image, [3, 60], [0.8, 0.0, 0.0]);
+        is(&image, [32, 32], rough([0.8, 0.0, 0.0]));
+        is(&image, [3, 60], rough([0.8, 0.0, 0.0]));
     }
     let none = square(r#""TEXCOORD_0": 1"#, MATTE);
-    is(&seen(&none, ""), [32, 32], [0.8; 3]);
+    is(&seen(&none, ""), [32, 32], rough([0.8; 3]));
     // Without a material, and with a texture: half of it is red, and the other green.
     let plain = square(r#""COLOR_0": 2"#, MATTE).replace(r#", "material": 0"#, "");
     is(&seen(&plain, ""), [32, 32], [0.8, 0.0, 0.0]);
     let image = seen(&square(r#""COLOR_0": 2, "TEXCOORD_0": 1"#, &textured("")), "");
-    is(&image, [3, 32], [1.0, 0.0, 0.0]);
-    is(&image, [60, 32], [0.0, 0.0, 0.0]);
+    is(&image, [3, 32], rough([1.0, 0.0, 0.0]));
+    is(&image, [60, 32], rough([0.0, 0.0, 0.0]));
     // A material of the scene file stands in for all that the model says.
     let own = seen(&square(r#""COLOR_0": 2"#, MATTE), ", material: (diffuse: (0.1, 0.2, 0.3))");
     is(&own, [32, 32], [0.1, 0.2, 0.3]);
+}
+
+/// Wholly rough metal mirrors a quarter of its colour over π to an eye that it faces; and what is half metal is in between.
+#[test]
+fn metal_is_seen() {
+    for (metallic, expected) in [(1.0, [0.2, 0.1, 0.05]), (0.5, [0.505, 0.255, 0.13])] {
+        let metal = format!(
+            r#""materials": [{{"pbrMetallicRoughness": {{"baseColorFactor": [0.8, 0.4, 0.2, 1], "metallicFactor": {metallic}}}}}]"#
+        );
+        is(&seen(&square(r#""TEXCOORD_0": 1"#, &metal), ""), [32, 32], expected);
+    }
+    // Colours of vertices are the metal's.
+    let metal = r#""materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.8, 0.8, 1]}}]"#;
+    is(&seen(&square(r#""COLOR_0": 2"#, metal), ""), [32, 32], [0.2, 0.0, 0.0]);
 }
 
 fn textured(filter: &str) -> String {
@@ -104,12 +124,12 @@ fn a_texture_without_a_filter_has_hard_edges() {
         (32, [0.0, 1.0, 0.0]),
         (63, [0.0, 1.0, 0.0]),
     ] {
-        is(&image, [x, 32], expected);
+        is(&image, [x, 32], rough(expected));
     }
     // Linear where the file says so, and where it says nothing of it.
     for filter in [r#""magFilter": 9729, "#, r#""minFilter": 9728, "#, ""] {
         let image = seen(&square(r#""TEXCOORD_0": 1"#, &textured(filter)), "");
         // Between the centres of the texels at pixels 16 and 48: (24.5 - 16) / 32 is green.
-        is(&image, [24, 32], [1.0 - 8.5 / 32.0, 8.5 / 32.0, 0.0]);
+        is(&image, [24, 32], rough([1.0 - 8.5 / 32.0, 8.5 / 32.0, 0.0]));
     }
 }

@@ -65,8 +65,6 @@ codes! {
     GLTF_MODE = "gltf-mode";
     /// glTF: material factors out of range.
     GLTF_MATERIAL = "gltf-material";
-    /// glTF: a material that is black because it is wholly metallic (a warning).
-    GLTF_METAL = "gltf-metal";
     /// glTF: an invalid light.
     GLTF_LIGHT = "gltf-light";
     /// glTF: an invalid camera.

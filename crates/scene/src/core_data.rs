@@ -142,13 +142,18 @@ fn vertex_colors(scene: &Scene) -> Vec<[f32; 4]> {
 
 fn materials(at: &Moment<'_>) -> Vec<layout::Material> {
     let shininesses = at.scene.shininesses();
-    let encoded = |material: &Material| layout::Material {
-        diffuse: floats(material.diffuse),
-        texture: material.texture.map_or(layout::NO_TEXTURE, |t| t as u32),
-        specular: floats(material.specular),
-        shininess: material.shininess as f32,
-        shininess_rank: material.shininess_rank(&shininesses),
-        ..Default::default()
+    let encoded = |material: &Material| {
+        let metal = material.metallic_roughness;
+        layout::Material {
+            diffuse: floats(material.diffuse),
+            texture: material.texture.map_or(layout::NO_TEXTURE, |t| t as u32),
+            specular: floats(material.specular),
+            shininess: material.shininess as f32,
+            shininess_rank: material.shininess_rank(&shininesses),
+            metallic: metal.map_or(0.0, |metal| metal.metallic as f32),
+            peak: metal.map_or(0.0, |metal| metal.lobe.peak as f32),
+            most: metal.map_or(0.0, |metal| metal.lobe.most as f32),
+        }
     };
     at.scene.materials.iter().map(encoded).collect()
 }

@@ -36,6 +36,7 @@ mod geometry;
 mod gltf;
 pub mod layout;
 mod mesh;
+pub mod microfacets;
 pub mod model;
 mod moment;
 mod overrides;

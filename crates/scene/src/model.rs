@@ -7,6 +7,7 @@ use glam::{DAffine3, DQuat, DVec3, Vec3};
 use crate::animate::Animated;
 use crate::field::Fields;
 use crate::mesh::Mesh;
+use crate::microfacets::Lobe;
 use crate::primitives::Primitive;
 
 pub use tyndall_shaders::scene::Medium;
@@ -89,7 +90,8 @@ pub enum Camera {
 /// How a surface reflects.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// Lambert reflectance ρ; the BRDF is ρ/π. Multiplied with the texture where there is one.
+    /// Lambert reflectance ρ; the BRDF is ρ/π. Multiplied with the texture where there is one. Of a metallic-roughness
+    /// material its base colour.
     pub diffuse: DVec3,
     /// k_s of the Phong lobe.
     pub specular: DVec3,
@@ -97,21 +99,33 @@ pub struct Material {
     pub shininess: f64,
     /// Index into the textures.
     pub texture: Option<usize>,
+    /// Of glTF: what ρ, k_s and n are made from; then `specular` is 0 and `shininess` that of the lobe.
+    pub metallic_roughness: Option<MetallicRoughness>,
     /// Those that plugins bring.
     pub fields: Fields,
+}
+
+/// What makes a base colour b a Lambert reflectance and a Phong lobe: see [`crate::microfacets`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MetallicRoughness {
+    /// 0 to 1. Multiplied with the alpha of the texture where there is one.
+    pub metallic: f64,
+    /// That of the roughness.
+    pub lobe: Lobe,
 }
 
 impl Default for Material {
     fn default() -> Self {
         let (diffuse, specular) = (DVec3::splat(0.8), DVec3::ZERO);
-        Material { diffuse, specular, shininess: 1.0, texture: None, fields: Fields::default() }
+        let (texture, metallic_roughness) = (None, None);
+        Material { diffuse, specular, shininess: 1.0, texture, metallic_roughness, fields: Fields::default() }
     }
 }
 
 impl Material {
     /// Whether it has a Phong lobe.
     pub fn is_shiny(&self) -> bool {
-        self.specular.max_element() > 0.0
+        self.specular.max_element() > 0.0 || self.metallic_roughness.is_some()
     }
 
     /// The number of its shininess among these, from 1; 0 without a Phong lobe.
@@ -154,7 +168,7 @@ pub struct Texture {
     pub wrap: [Wrap; 2],
     /// Between texels.
     pub filter: Filter,
-    /// Row by row from the top, RGBA with R in the lowest 8 bits, sRGB.
+    /// Row by row from the top, RGBA with R in the lowest 8 bits: a colour, sRGB, and a metallic factor, linear.
     pub texels: Vec<u32>,
 }
 

@@ -1,6 +1,6 @@
 //! From what a scene file says to a scene: reads the glTF files and decides camera, lights and materials.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use glam::DVec3;
 use tyndall_document::{Diagnostic, Diagnostics, MISSING_FILE, Span};
 
 use crate::animate::Animated;
-use crate::codes::{GLTF_METAL, MISSING_CAMERA, SCENE_TOO_LARGE, UNKNOWN_SUFFIX};
+use crate::codes::{MISSING_CAMERA, SCENE_TOO_LARGE, UNKNOWN_SUFFIX};
 use crate::decode::{CameraDraft, Draft, MediumDraft, MeshDraft, ObjectDraft};
 use crate::extensions::Extensions;
 use crate::field::{Fields, MediumFields};
@@ -27,8 +27,6 @@ struct Files<'a> {
     folder: &'a Path,
     out: &'a mut Diagnostics,
     known: BTreeMap<PathBuf, Option<Arc<Model>>>,
-    /// The paths of objects that name no material of their own.
-    plain: BTreeSet<String>,
     read: Vec<PathBuf>,
 }
 
@@ -40,13 +38,7 @@ pub(crate) fn scene(
     (folder, extensions): (&Path, &Arc<Extensions>),
     out: &mut Diagnostics,
 ) -> Option<Scene> {
-    let plain = draft.objects.iter().filter(|object| object.material.is_none());
-    let plain = plain.filter_map(|object| match &object.mesh {
-        MeshDraft::File(text, _) => Some(text.clone()),
-        MeshDraft::Primitive(_) => None,
-    });
-    let plain = plain.collect();
-    let mut files = Files { merged, folder, out, known: BTreeMap::new(), plain, read: draft.files };
+    let mut files = Files { merged, folder, out, known: BTreeMap::new(), read: draft.files };
     let models: Vec<Option<Arc<Model>>> = draft.objects.iter().map(|object| files.model(object)).collect();
     let phase = files.phase(draft.medium.as_ref());
     let complete = draft.objects.iter().zip(&models).all(|(o, m)| m.is_some() == matches!(o.mesh, MeshDraft::File(..)));
@@ -99,12 +91,12 @@ impl Files<'_> {
         if let Some(known) = self.known.get(&path) {
             return known.clone();
         }
-        let loaded = self.load(&path, *span, self.plain.contains(text));
+        let loaded = self.load(&path, *span);
         self.known.insert(path, loaded.clone());
         loaded
     }
 
-    fn load(&mut self, path: &Path, span: Span, materials_count: bool) -> Option<Arc<Model>> {
+    fn load(&mut self, path: &Path, span: Span) -> Option<Arc<Model>> {
         let name = path.display().to_string();
         let place = self.merged.source.place(span);
         let suffix = path.extension().map(|s| s.to_string_lossy().to_ascii_lowercase());
@@ -118,8 +110,7 @@ impl Files<'_> {
             return None;
         }
         let loaded = gltf::load(path, &name);
-        let told = loaded.diagnostics.into_iter().filter(|d| materials_count || d.code != GLTF_METAL);
-        self.out.extend(told.map(|d| d.relate(place.clone(), "named here")));
+        self.out.extend(loaded.diagnostics.into_iter().map(|d| d.relate(place.clone(), "named here")));
         self.read.push(path.to_owned());
         self.read.extend(loaded.files);
         loaded.model.map(Arc::new)

@@ -72,8 +72,9 @@ fn triangles(instance: &Instance, transform: DAffine3) -> impl Iterator<Item = t
 }
 
 fn material(material: &Material, shininess_rank: u32) -> twin::Material {
-    let Material { diffuse, specular, shininess, texture, .. } = *material;
-    twin::Material { diffuse, specular, shininess, shininess_rank, texture }
+    let Material { diffuse, specular, shininess, texture, metallic_roughness, .. } = *material;
+    let metallic_roughness = metallic_roughness.map(|metal| [metal.metallic, metal.lobe.peak, metal.lobe.most]);
+    twin::Material { diffuse, specular, shininess, shininess_rank, texture, metallic_roughness }
 }
 
 fn texture(texture: &Texture) -> twin::Texture {
@@ -86,16 +87,12 @@ fn texture(texture: &Texture) -> twin::Texture {
         Filter::Linear => twin::Filter::Linear,
         Filter::Nearest => twin::Filter::Nearest,
     };
-    let rgb = |texel: &u32| {
-        let [r, g, b, _] = texel.to_le_bytes();
-        [r, g, b]
-    };
     twin::Texture {
         width: texture.width,
         height: texture.height,
         wrap: texture.wrap.map(wrap),
         filter,
-        texels: texture.texels.iter().map(rgb).collect(),
+        texels: texture.texels.iter().map(|texel| texel.to_le_bytes()).collect(),
     }
 }
 

@@ -211,7 +211,8 @@ fn textures_materials_and_their_transforms() {
     let text = file.text();
     let (scene, _) = load_with(&text, CAMERA, "").expect("it is sound");
     let material = &scene.materials[scene.instances[0].material];
-    assert_eq!(material.diffuse, DVec3::new(0.375, 0.75, 0.75));
+    assert_eq!(material.diffuse, DVec3::new(0.5, 1.0, 1.0));
+    assert_eq!(material.metallic_roughness.map(|metal| metal.metallic), Some(0.25));
     let texture = &scene.textures[material.texture.expect("a texture")];
     assert_eq!((texture.width, texture.height, texture.wrap), (4, 4, [Wrap::Clamp, Wrap::Mirror]));
     assert_eq!(texture.texels[1].to_le_bytes(), [10, 0, 7, 255]);
@@ -225,6 +226,44 @@ fn textures_materials_and_their_transforms() {
     // An object's own material replaces that of the file, texture included.
     let (own, _) = load_with(&text, CAMERA, "material: (diffuse: (1, 0, 0))").expect("it is sound");
     assert_eq!((own.materials.len(), own.materials[0].texture), (1, None));
+}
+
+/// Metallic and roughness are factors times the blue and green of a texture. One that is the same everywhere is a factor;
+/// of a roughness that is not the mean counts.
+#[test]
+fn metallic_and_roughness_come_from_factors_and_a_texture() {
+    let material = |factors: Value, texels: [[u8; 4]; 2]| {
+        let mut file = File::new(json!({ "nodes": [{ "mesh": 0 }] }));
+        let position = file.floats("VEC3", &ZIGZAG[..9]);
+        let uv = file.floats("VEC2", &[0.; 6]);
+        let attributes = json!({ "POSITION": position, "TEXCOORD_0": uv });
+        file.json["meshes"] = json!([{ "primitives": [{ "attributes": attributes, "material": 0 }] }]);
+        let mut picture = image::RgbaImage::new(2, 1);
+        picture.pixels_mut().zip(texels).for_each(|(pixel, texel)| *pixel = image::Rgba(texel));
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        picture.write_to(&mut bytes, image::ImageFormat::Png).expect("a picture");
+        let view = file.view(&bytes.into_inner());
+        file.json["images"] = json!([{ "bufferView": view, "mimeType": "image/png" }]);
+        file.json["textures"] = json!([{ "source": 0 }]);
+        file.json["materials"] = json!([{ "pbrMetallicRoughness": factors }]);
+        file.json["materials"][0]["pbrMetallicRoughness"]["metallicRoughnessTexture"] = json!({ "index": 0 });
+        let (scene, warnings) = load_with(&file.text(), CAMERA, "").expect("it is sound");
+        let material = scene.materials[scene.instances[0].material].clone();
+        let texels = material.texture.map(|index| scene.textures[index].texels.clone());
+        (material.metallic_roughness.expect("of glTF"), texels, render_text(&warnings, false))
+    };
+    let (same, texels, told) = material(json!({ "metallicFactor": 0.5 }), [[9, 51, 102, 9]; 2]);
+    assert_eq!((same.metallic, texels, told.as_str()), (0.5 * 0.4, None, ""));
+    // α is 0.2².
+    assert!((same.lobe.shininess - 312.0).abs() < 1e-9 && (same.lobe.peak - 49.7359).abs() < 1e-4, "{same:?}");
+    let (varied, texels, told) = material(json!({ "roughnessFactor": 0.5 }), [[9, 0, 255, 9], [9, 255, 0, 9]]);
+    let texels: Vec<_> = texels.expect("a texture").into_iter().map(u32::to_le_bytes).collect();
+    assert_eq!((varied.metallic, texels), (1.0, vec![[255; 4], [255, 255, 255, 0]]));
+    assert!((varied.lobe.shininess - 127.5).abs() < 1e-9, "α is 0.25²: {varied:?}");
+    assert!(told.contains("material 0: roughness from texel to texel (its mean is used)"), "{told}");
+    // A mirror is a very sharp lobe.
+    let (mirror, ..) = material(json!({ "roughnessFactor": 0 }), [[9, 0, 0, 9]; 2]);
+    assert_eq!((mirror.metallic, mirror.lobe.shininess), (0.0, tyndall_scene::microfacets::SHARPEST));
 }
 
 #[test]

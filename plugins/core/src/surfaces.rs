@@ -7,11 +7,11 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, DVec4};
 use tyndall_plugin::{Outputs, Pixel, ReferenceInput, rgba};
 use tyndall_shaders::colour::linear_from_srgb;
 use tyndall_shaders::ray::Ray;
-use tyndall_shaders::scene::{Camera, Filter, Surfaces, Texture, Triangle, Wrap};
+use tyndall_shaders::scene::{Camera, Filter, Material, Surfaces, Texture, Triangle, Wrap};
 
 /// Depth buffer times distance along the view axis, m.
 const RASTER_DEPTH: f64 = 1e-6;
@@ -108,10 +108,10 @@ fn seen(surfaces: &Surfaces, ray: &Ray, hit: Option<&Hit>) -> Seen {
     let side = if (face.dot(ray.direction) > 0.0) == (face.dot(normal) > 0.0) { -1.0 } else { 1.0 };
     let uv = part_a * a.uv + part_b * b.uv + part_c * c.uv;
     let material = &surfaces.materials[triangle.material];
-    let texture = material.texture.map_or(DVec3::ONE, |texture| color_at(&surfaces.textures[texture], uv));
+    let texture = material.texture.map_or(DVec4::ONE, |texture| texture_at(&surfaces.textures[texture], uv));
     let color = part_a * a.color + part_b * b.color + part_c * c.color;
-    let [red, green, blue] = (material.diffuse * texture * color).to_array();
-    let [sr, sg, sb] = material.specular.to_array();
+    let (diffuse, specular) = reflectances(material, texture.truncate() * color, texture.w);
+    let ([red, green, blue], [sr, sg, sb]) = (diffuse.to_array(), specular.to_array());
     Seen {
         normal: side * normal,
         reflected: [red, green, blue, f64::from(material.shininess_rank)],
@@ -119,8 +119,18 @@ fn seen(surfaces: &Surfaces, ray: &Ray, hit: Option<&Hit>) -> Seen {
     }
 }
 
-/// The nearest texel, or linear between the centres of the four nearest, of linear light.
-fn color_at(texture: &Texture, uv: DVec2) -> DVec3 {
+/// ρ and k_s where texture and vertices have this colour and metallic factor.
+fn reflectances(material: &Material, color: DVec3, metallic_there: f64) -> (DVec3, DVec3) {
+    let base = material.diffuse * color;
+    let Some([metallic, peak, most]) = material.metallic_roughness else { return (base, material.specular) };
+    let metallic = metallic * metallic_there;
+    let diffuse = (1.0 - metallic) * base;
+    let mirrored = (1.0 - metallic) * DVec3::splat(0.04) + metallic * base;
+    (diffuse, (peak * mirrored).min(most * (DVec3::ONE - diffuse)))
+}
+
+/// The nearest texel, or linear between the centres of the four nearest, of linear light; and the metallic factor.
+fn texture_at(texture: &Texture, uv: DVec2) -> DVec4 {
     let place = uv * DVec2::new(f64::from(texture.width), f64::from(texture.height));
     let corner = if texture.filter == Filter::Nearest { place.floor() } else { (place - 0.5).floor() };
     let part = place - 0.5 - corner;
@@ -128,7 +138,8 @@ fn color_at(texture: &Texture, uv: DVec2) -> DVec3 {
         let x = wrapped(corner.x + right, texture.width, texture.wrap[0]);
         let y = wrapped(corner.y + down, texture.height, texture.wrap[1]);
         let texel = texture.texels[(y * texture.width + x) as usize];
-        DVec3::from_array(texel.map(|code| linear_from_srgb(f64::from(code) / 255.0)))
+        let [red, green, blue, metallic] = texel.map(|code| f64::from(code) / 255.0);
+        DVec3::new(red, green, blue).map(linear_from_srgb).extend(metallic)
     };
     if texture.filter == Filter::Nearest {
         return texel(0.0, 0.0);

@@ -92,7 +92,8 @@ fn material(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Material> {
         let place = decoder.place(node.span);
         decoder.report(Diagnostic::warning(BRIGHTER_THAN_WHITE, place, message));
     }
-    Some(Material { diffuse: diffuse?, specular: specular?, shininess: shininess?, texture: None, fields: own? })
+    let (diffuse, specular, shininess, fields) = (diffuse?, specular?, shininess?, own?);
+    Some(Material { diffuse, specular, shininess, fields, ..default })
 }
 
 fn mesh(decoder: &mut SceneReader<'_>, node: &Node) -> Option<MeshDraft> {

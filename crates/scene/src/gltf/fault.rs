@@ -2,7 +2,7 @@
 
 use tyndall_document::{Code, Diagnostic, Diagnostics, Place};
 
-use crate::codes::{GLTF_IGNORED, GLTF_METAL, GLTF_MODE};
+use crate::codes::{GLTF_IGNORED, GLTF_MODE};
 
 /// Faults reported of one file; a broken exporter repeats one mistake for every mesh.
 const MOST_FAULTS: usize = 20;
@@ -87,19 +87,14 @@ impl Unread {
     pub const EMISSION: Self = Self::new("material", "emission");
     pub const NORMAL_MAP: Self = Self::new("material", "normal map");
     pub const OCCLUSION: Self = Self::new("material", "occlusion");
+    pub const VARIED_ROUGHNESS: Self = Self::new("material", "roughness from texel to texel (its mean is used)");
     pub const METALLIC_COORDINATES: Self =
         Self::new("material", "texture coordinates of the metallic texture (its mean is used)");
     pub const POINTS_AND_LINES: Self = Self { code: GLTF_MODE, ..Self::new("primitive", "points or lines") };
-    pub const METAL: Self =
-        Self { code: GLTF_METAL, ..Self::new("material", "wholly metallic, no diffuse reflectance") };
 
-    /// What becomes of it, and what a user can do about that.
-    fn outcome(code: Code) -> (&'static str, Option<&'static str>) {
-        match code {
-            GLTF_MODE => ("not drawn", None),
-            GLTF_METAL => ("drawn black", Some("name a `material` at the object in the scene file")),
-            _ => ("not read", None),
-        }
+    /// What becomes of it.
+    fn outcome(code: Code) -> &'static str {
+        if code == GLTF_MODE { "not drawn" } else { "not read" }
     }
 }
 
@@ -151,7 +146,7 @@ impl Report {
 
     /// Everything that is wrong, and one warning for all that is not read.
     pub fn finish(mut self) -> Diagnostics {
-        for code in [GLTF_IGNORED, GLTF_MODE, GLTF_METAL] {
+        for code in [GLTF_IGNORED, GLTF_MODE] {
             let unread = self.unread.iter().filter(|(unread, _)| unread.code == code);
             let mut parts: Vec<String> = unread.map(|(unread, elements)| counted(unread, elements)).collect();
             if code == GLTF_IGNORED && !self.extensions.is_empty() {
@@ -160,11 +155,8 @@ impl Report {
             if parts.is_empty() {
                 continue;
             }
-            let (outcome, suggestion) = Unread::outcome(code);
-            let message = format!("{outcome}: {}", parts.join("; "));
-            let mut warning = Diagnostic::warning(code, Place::File(self.name.clone()), message);
-            warning.suggestion = suggestion.map(str::to_owned);
-            self.out.push(warning);
+            let message = format!("{}: {}", Unread::outcome(code), parts.join("; "));
+            self.out.push(Diagnostic::warning(code, Place::File(self.name.clone()), message));
         }
         self.out
     }

@@ -1,14 +1,12 @@
-//! Materials of a glTF file as a Lambert reflectance: ρ = base colour × (1 − metallic).
+//! Metallic-roughness materials of a glTF file: see [`crate::microfacets`].
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
 use glam::DVec3;
 use gltf::json::material::{AlphaMode, Material as JsonMaterial};
 use gltf::json::texture::{Info, MagFilter, Sampler, WrappingMode};
 use gltf::json::validation::Checked::Valid;
 use image::RgbaImage;
-use tyndall_shaders::colour::{linear_from_srgb, srgb_from_linear};
 
 use super::accessors::{Data, absent};
 use super::fault::{At, Checked, Fault, Report, Unread, element, numbered};
@@ -16,7 +14,8 @@ use super::files::Folder;
 use super::images::Images;
 use super::meshes::UvSource;
 use crate::codes::{GLTF_MATERIAL, GLTF_REFERENCE};
-use crate::model::{Filter, Material, Texture, Wrap};
+use crate::microfacets::Lobe;
+use crate::model::{Filter, Material, MetallicRoughness, Texture, Wrap};
 
 /// The materials of a file that are drawn.
 #[derive(Default)]
@@ -32,8 +31,8 @@ pub(crate) struct Materials {
 /// How a texture is read: outside of 0..1 along u and v, and between texels.
 type Sampling = ([Wrap; 2], Filter);
 
-/// Where a texture comes from: base colour image, metallic image with the factor's bits, and how it is read.
-type Key = (Option<usize>, Option<(usize, u32)>, Sampling);
+/// Where a texture comes from: base colour image, metallic image, and how it is read.
+type Key = (Option<usize>, Option<usize>, Sampling);
 
 struct Reader<'a> {
     data: Data<'a>,
@@ -82,38 +81,36 @@ impl Reader<'_> {
             *slot = unit_interval("baseColorFactor", value)?;
         }
         let metallic = unit_interval("metallicFactor", pbr.metallic_factor.0)?;
+        let roughness = unit_interval("roughnessFactor", pbr.roughness_factor.0)?;
         let mut unread = |what| report.unread(what, numbered(index, json.name.as_deref()));
         unread_of(json).for_each(&mut unread);
         let base = self.sampled(pbr.base_color_texture.as_ref(), "baseColorTexture")?;
-        let metal = if metallic > 0.0 {
-            self.sampled(pbr.metallic_roughness_texture.as_ref(), "metallicRoughnessTexture")?
-        } else {
-            None
-        };
-        let mut diffuse = DVec3::from_array(factor);
-        let constant_metal = |diffuse: DVec3, metallic: f64| diffuse * (1.0 - metallic);
-        let (texture, uv) = match (base, metal) {
-            (base, None) => {
-                diffuse = constant_metal(diffuse, metallic);
-                let texture = base.map(|base| self.texture((Some(base.image), None, base.sampling))).transpose()?;
-                (texture, base.map(|base| base.uv))
-            }
-            (Some(base), Some(metal)) if base.uv != metal.uv => {
-                let mean = mean_blue(self.images.get(metal.image)?.as_ref());
-                unread(Unread::METALLIC_COORDINATES);
-                diffuse = constant_metal(diffuse, metallic * mean);
-                (Some(self.texture((Some(base.image), None, base.sampling))?), Some(base.uv))
-            }
-            (base, Some(metal)) => {
-                let key = (base.map(|b| b.image), Some((metal.image, (metallic as f32).to_bits())));
-                let sampled = base.unwrap_or(metal);
-                (Some(self.texture((key.0, key.1, sampled.sampling))?), Some(sampled.uv))
-            }
-        };
-        if diffuse == DVec3::ZERO && metallic == 1.0 {
-            unread(Unread::METAL);
+        let surface = self.sampled(pbr.metallic_roughness_texture.as_ref(), "metallicRoughnessTexture")?;
+        let means = surface.map(|surface| Ok(Means::of(self.images.get(surface.image)?.as_ref()))).transpose()?;
+        if means.is_some_and(|means| means.rough_varies) && roughness > 0.0 {
+            unread(Unread::VARIED_ROUGHNESS);
         }
-        Ok((Material { diffuse, texture, ..Material::default() }, uv))
+        let lobe = Lobe::of_roughness(roughness * means.map_or(1.0, |means| means.roughness));
+        let of_one_texel = |factor: f64| factor * means.map_or(1.0, |means| means.metallic);
+        let (metallic, metal, sampled) = match (base, surface) {
+            (Some(base), Some(surface)) if base.uv != surface.uv && metallic > 0.0 => {
+                unread(Unread::METALLIC_COORDINATES);
+                (of_one_texel(metallic), None, Some(base))
+            }
+            (base, Some(surface)) if means.is_some_and(|means| means.metal_varies) && metallic > 0.0 => {
+                (metallic, Some(surface.image), Some(base.unwrap_or(surface)))
+            }
+            _ => (of_one_texel(metallic), None, base),
+        };
+        let key = |sampled: Sampled| (base.map(|base| base.image), metal, sampled.sampling);
+        let material = Material {
+            diffuse: DVec3::from_array(factor),
+            shininess: lobe.shininess,
+            texture: sampled.map(|sampled| self.texture(key(sampled))).transpose()?,
+            metallic_roughness: Some(MetallicRoughness { metallic, lobe }),
+            ..Material::default()
+        };
+        Ok((material, sampled.map(|sampled| sampled.uv)))
     }
 
     fn sampled(&self, info: Option<&Info>, name: &str) -> Checked<Option<Sampled>> {
@@ -148,15 +145,15 @@ impl Reader<'_> {
         Ok(Sampled { image, sampling, uv })
     }
 
-    /// The texture of a base colour image whose texels are multiplied by 1 − metallic; of both, either may be absent.
+    /// The texture of a base colour image and of a metallic one, either of which may be absent.
     fn texture(&mut self, key: Key) -> Checked<usize> {
         let (base, metal, sampling) = key;
         if let Some(&known) = self.known.get(&key) {
             return Ok(known);
         }
-        let base = base.map(|image| self.images.get(image)).transpose()?;
-        let metal = metal.map(|(image, factor)| Ok((self.images.get(image)?, f32::from_bits(factor)))).transpose()?;
-        self.textures.push(baked(base.as_ref(), metal.as_ref(), sampling));
+        let mut image = |index: Option<usize>| index.map(|index| self.images.get(index)).transpose();
+        let (base, metal) = (image(base)?, image(metal)?);
+        self.textures.push(packed(base.as_deref(), metal.as_deref(), sampling));
         self.known.insert(key, self.textures.len() - 1);
         Ok(self.textures.len() - 1)
     }
@@ -211,30 +208,39 @@ fn unit_interval(name: &str, value: f32) -> Checked<f64> {
     }
 }
 
-fn mean_blue(image: &RgbaImage) -> f64 {
-    let sum: u64 = image.pixels().map(|p| u64::from(p.0[2])).sum();
-    sum as f64 / 255.0 / f64::from(image.width() * image.height())
+/// What the texels of a metallic-roughness image have in common, 0 to 1.
+#[derive(Clone, Copy)]
+struct Means {
+    roughness: f64,
+    rough_varies: bool,
+    metallic: f64,
+    metal_varies: bool,
 }
 
-fn baked(base: Option<&Arc<RgbaImage>>, metal: Option<&(Arc<RgbaImage>, f32)>, (wrap, filter): Sampling) -> Texture {
-    let (width, height) = base.or(metal.map(|m| &m.0)).map_or((1, 1), |image| image.dimensions());
-    let linear: [f64; 256] = std::array::from_fn(|i| linear_from_srgb(i as f64 / 255.0));
+impl Means {
+    /// Roughness is green, metallic blue (glTF 2.0, 3.9.2).
+    fn of(image: &RgbaImage) -> Means {
+        let channel = |channel: usize| {
+            let values = || image.pixels().map(|texel| texel.0[channel]);
+            let mean = values().map(u64::from).sum::<u64>() as f64 / 255.0 / f64::from(image.width() * image.height());
+            (mean, values().min() != values().max())
+        };
+        let ((roughness, rough_varies), (metallic, metal_varies)) = (channel(1), channel(2));
+        Means { roughness, rough_varies, metallic, metal_varies }
+    }
+}
+
+/// A base colour with the metallic factor of each texel as its alpha, in the size of the former.
+fn packed(base: Option<&RgbaImage>, metal: Option<&RgbaImage>, (wrap, filter): Sampling) -> Texture {
+    let (width, height) = base.or(metal).map_or((1, 1), RgbaImage::dimensions);
     let mut texels = Vec::with_capacity(width as usize * height as usize);
     for y in 0..height {
         for x in 0..width {
-            let mut texel = base.map_or([255; 4], |image| image.get_pixel(x, y).0);
-            if let Some((image, factor)) = metal {
-                let at = |i: u32, size: u32, other: u32| (u64::from(i) * u64::from(other) / u64::from(size)) as u32;
-                let blue = image.get_pixel(at(x, width, image.width()), at(y, height, image.height())).0[2];
-                if blue > 0 {
-                    let kept = 1.0 - f64::from(*factor) * f64::from(blue) / 255.0;
-                    for channel in &mut texel[..3] {
-                        let value = srgb_from_linear(linear[usize::from(*channel)] * kept);
-                        *channel = (value * 255.0).round() as u8;
-                    }
-                }
-            }
-            texels.push(u32::from_le_bytes(texel));
+            let [red, green, blue, _] = base.map_or([255; 4], |image| image.get_pixel(x, y).0);
+            let at = |i: u32, size: u32, other: u32| (u64::from(i) * u64::from(other) / u64::from(size)) as u32;
+            let metallic = metal
+                .map_or(255, |image| image.get_pixel(at(x, width, image.width()), at(y, height, image.height())).0[2]);
+            texels.push(u32::from_le_bytes([red, green, blue, metallic]));
         }
     }
     Texture { width, height, wrap, filter, texels }
@@ -246,13 +252,13 @@ mod tests {
     use image::Rgba;
 
     #[test]
-    fn metallic_texels_darken_in_linear_light() {
-        let base = Arc::new(RgbaImage::from_pixel(4, 2, Rgba([200, 100, 0, 255])));
-        let metal = (Arc::new(RgbaImage::from_fn(2, 1, |x, _| Rgba([9, 9, x as u8 * 255, 9]))), 0.5);
-        let texture = baked(Some(&base), Some(&metal), Sampling::default());
-        let texel = |x: usize| texture.texels[x].to_le_bytes();
-        assert_eq!(texel(1), [200, 100, 0, 255]);
-        let half = |v: u8| srgb_from_linear(linear_from_srgb(f64::from(v) / 255.0) / 2.0) * 255.0;
-        assert_eq!(texel(2), [half(200).round() as u8, half(100).round() as u8, 0, 255]);
+    fn a_texel_has_base_colour_and_metallic_factor() {
+        let base = RgbaImage::from_pixel(4, 2, Rgba([200, 100, 0, 7]));
+        let metal = RgbaImage::from_fn(2, 1, |x, _| Rgba([9, 9, x as u8 * 255, 9]));
+        let texel = |texture: &Texture, x: usize| texture.texels[x].to_le_bytes();
+        let texture = packed(Some(&base), Some(&metal), Sampling::default());
+        assert_eq!([1, 2].map(|x| texel(&texture, x)), [[200, 100, 0, 0], [200, 100, 0, 255]]);
+        assert_eq!(texel(&packed(Some(&base), None, Sampling::default()), 0), [200, 100, 0, 255]);
+        assert_eq!(texel(&packed(None, Some(&metal), Sampling::default()), 0), [255, 255, 255, 0]);
     }
 }

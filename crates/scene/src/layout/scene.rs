@@ -199,12 +199,12 @@ wgsl_struct! {
         pub shininess: f32,
         /// Of its shininess among those of the scene, growing, from 1; 0 without a Phong lobe.
         pub shininess_rank: u32,
-        /// 0.
-        pub pad0: u32,
-        /// 0.
-        pub pad1: u32,
-        /// 0.
-        pub pad2: u32,
+        /// 0 to 1.
+        pub metallic: f32,
+        /// k_s of F₀ = 1; 0 of a material that is not metallic-roughness.
+        pub peak: f32,
+        /// k_s with which the lobe alone reflects everything.
+        pub most: f32,
     }
 }
 
