@@ -118,3 +118,34 @@ fn a_truncated_graph_never_panics() {
         assert!(found.iter().any(|mistake| mistake["file"] == name.as_str()), "{name} has no mistake");
     }
 }
+
+/// A triangle whose material has an occlusion picture: read but for that.
+const OCCLUDED: &str = r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"data:;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA"}],
+    "bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+    "materials":[{"occlusionTexture":{"index":0}}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+    "nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}]}"#;
+
+/// What of a model is not drawn is told by the verbs that look at the picture, unless it is allowed.
+#[test]
+fn warnings_can_be_left_out() {
+    let desk = Desk::new();
+    desk.put("model.gltf", OCCLUDED);
+    desk.put(
+        "m.scene.ron",
+        "(camera: (position: (0, 0, 5), look_at: (0, 0, 0)), objects: [(mesh: File(\"model.gltf\"))])",
+    );
+    let told = |arguments: &[&str]| desk.ends(0, arguments).err.contains("warning[gltf-ignored]");
+    assert!(told(&["check", "m.scene.ron"]));
+    assert!(!told(&["check", "m.scene.ron", "--quiet"]));
+    assert!(!told(&["check", "m.scene.ron", "--allow", "brighter-than-white", "--allow", "gltf-ignored"]));
+    assert!(told(&["check", "m.scene.ron", "--allow", "gltf-mode"]));
+    assert!(!told(&["show", "fog.graph.ron", "--scene", "m.scene.ron"]));
+    let json = desk.ends(0, &["check", "m.scene.ron", "--format", "json", "--quiet"]).out;
+    assert_eq!(json.trim(), "[]");
+    assert!(
+        desk.ends(2, &["check", "m.scene.ron", "--allow", "gltf-ignord"]).err.contains("did you mean `gltf-ignored`?")
+    );
+    // A mistake is told whatever is allowed.
+    desk.put("wrong.scene.ron", "(lihgts: [])");
+    assert!(desk.ends(2, &["check", "wrong.scene.ron", "--quiet", "--allow", "unknown-field"]).err.contains("lihgts"));
+}

@@ -5,6 +5,8 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::warnings::WarningArguments;
+
 /// Render graphs for light scattering: stills and sequences from graph files, pass by pass.
 #[derive(Debug, Parser)]
 #[command(name = "tyndall", version, propagate_version = true)]
@@ -100,6 +102,8 @@ pub(crate) struct Render {
     /// Render again whenever a file that the picture depends on changes
     #[arg(long)]
     pub watch: bool,
+    #[command(flatten)]
+    pub warnings: WarningArguments,
 }
 
 #[derive(Debug, Args)]
@@ -110,6 +114,8 @@ pub(crate) struct Check {
     /// How to write the mistakes
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
+    #[command(flatten)]
+    pub warnings: WarningArguments,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -9,6 +9,7 @@ mod loading;
 mod pictures;
 mod plugins;
 mod terminal;
+mod warnings;
 
 use std::process::ExitCode;
 use std::time::Instant;

@@ -7,11 +7,12 @@ use tyndall_render::{Request, Running, Setting};
 use crate::cli::GraphArguments;
 use crate::failure::Failure;
 use crate::terminal;
+use crate::warnings::Untold;
 
 pub(crate) use tyndall_render::{Loaded, Wanted, plan};
 
-/// Reads and checks a graph and its scene; warnings go to standard error.
-pub(crate) fn load(arguments: &GraphArguments, registry: &Registry) -> Result<Loaded, Failure> {
+/// Reads and checks a graph and its scene; warnings go to standard error, but for those that are not told.
+pub(crate) fn load(arguments: &GraphArguments, registry: &Registry, untold: &Untold) -> Result<Loaded, Failure> {
     let mut out = Diagnostics::default();
     let loaded = try_load(arguments, registry, &mut out);
     if let Some(loaded) = &loaded {
@@ -20,6 +21,7 @@ pub(crate) fn load(arguments: &GraphArguments, registry: &Registry) -> Result<Lo
     }
     out.sort();
     out.dedup();
+    let out = untold.without(out);
     if out.has_errors() {
         return Err(Failure::Mistakes(out));
     }
@@ -30,9 +32,10 @@ pub(crate) fn load(arguments: &GraphArguments, registry: &Registry) -> Result<Lo
 }
 
 /// Warns of passes whose loops the driver ended before they were done.
-pub(crate) fn warn_of_unfinished(running: &Running<'_>) -> Result<(), Failure> {
+pub(crate) fn warn_of_unfinished(running: &Running<'_>, untold: &Untold) -> Result<(), Failure> {
     let mut out = Diagnostics::default();
     running.warn_of_unfinished(&mut out)?;
+    let out = untold.without(out);
     if !out.is_empty() {
         terminal::error(&render_text(&out, terminal::color()));
     }

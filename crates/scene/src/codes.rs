@@ -27,6 +27,8 @@ codes! {
     UNKNOWN_SUFFIX = "unknown-suffix";
     /// More vertices, triangles or texels than scene data may have.
     SCENE_TOO_LARGE = "scene-too-large";
+    /// `materials` of an object that has none with names, or a name that no material of its file has.
+    NAMED_MATERIALS = "named-materials";
     /// A surface that reflects more light than it receives (a warning).
     BRIGHTER_THAN_WHITE = "brighter-than-white";
     /// glTF: the `.glb` container is broken or cut off.

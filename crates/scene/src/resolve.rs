@@ -8,8 +8,8 @@ use glam::DVec3;
 use tyndall_document::{Diagnostic, Diagnostics, MISSING_FILE, Span};
 
 use crate::animate::Animated;
-use crate::codes::{MISSING_CAMERA, SCENE_TOO_LARGE, UNKNOWN_SUFFIX};
-use crate::decode::{CameraDraft, Draft, MediumDraft, MeshDraft, ObjectDraft};
+use crate::codes::{MISSING_CAMERA, NAMED_MATERIALS, SCENE_TOO_LARGE, UNKNOWN_SUFFIX};
+use crate::decode::{CameraDraft, Draft, MediumDraft, MeshDraft, NamedMaterial, ObjectDraft};
 use crate::extensions::Extensions;
 use crate::field::{Fields, MediumFields};
 use crate::gltf::{self, MOST_ELEMENTS, Model};
@@ -68,6 +68,7 @@ pub(crate) fn scene(
     scene.lights = draft.lights.unwrap_or_else(|| lights(&models));
     let mut shared = Shared::default();
     for (object, model) in draft.objects.into_iter().zip(&models) {
+        unknown_names(&object.materials, model.as_deref(), merged, out);
         add(&mut scene, object, model.as_deref(), &mut shared);
     }
     within_limits(&scene, merged, whole, out).then_some(scene)
@@ -114,6 +115,17 @@ impl Files<'_> {
         self.read.push(path.to_owned());
         self.read.extend(loaded.files);
         loaded.model.map(Arc::new)
+    }
+}
+
+/// Reports names that no material of the file has.
+fn unknown_names(named: &[NamedMaterial], model: Option<&Model>, merged: &Merged, out: &mut Diagnostics) {
+    let names = || model.into_iter().flat_map(|model| &model.material_names).map(String::as_str);
+    for NamedMaterial { name, span, .. } in named.iter().filter(|named| !names().any(|name| name == named.name)) {
+        let message = format!("no material of the file is called `{name}`");
+        let mistake = Diagnostic::error(NAMED_MATERIALS, merged.source.place(*span), message);
+        let known: Vec<&str> = names().filter(|name| !name.is_empty()).collect();
+        out.push(mistake.suggest_near(name, known));
     }
 }
 
@@ -172,7 +184,7 @@ impl Shared {
 
 fn add(scene: &mut Scene, draft: ObjectDraft, model: Option<&Model>, shared: &mut Shared) {
     let object = scene.objects.len();
-    let ObjectDraft { mesh, translation, rotation, scale, material, casts_shadow, fields } = draft;
+    let ObjectDraft { mesh, translation, rotation, scale, material, materials, casts_shadow, fields } = draft;
     let nodes = model.map(|m| Arc::clone(&m.nodes)).unwrap_or_default();
     scene.objects.push(Object { translation, rotation, scale, nodes, fields });
     let own = material.map(|material| push(&mut scene.materials, material));
@@ -189,7 +201,9 @@ fn add(scene: &mut Scene, draft: ObjectDraft, model: Option<&Model>, shared: &mu
                 Some(_) => 0,
                 None => *shared.models.entry(std::ptr::from_ref(model)).or_insert_with(|| adopt(scene, model)),
             };
+            let replaced = replaced(&mut scene.materials, materials, model);
             for part in &model.parts {
+                let own = own.or_else(|| part.material.and_then(|index| replaced.get(&index).copied()));
                 let material = own.or(part.material.map(|m| first + m));
                 let material = material.unwrap_or_else(|| shared.default_material(&mut scene.materials));
                 let (node, mesh) = (Some(part.node), Arc::clone(&part.mesh));
@@ -200,6 +214,17 @@ fn add(scene: &mut Scene, draft: ObjectDraft, model: Option<&Model>, shared: &mu
         }
         (MeshDraft::File(..), None) => {}
     }
+}
+
+/// What stands for materials of a model, by their index there. All of one name are replaced.
+fn replaced(list: &mut Vec<Material>, named: Vec<NamedMaterial>, model: &Model) -> BTreeMap<usize, usize> {
+    let mut replaced = BTreeMap::new();
+    for NamedMaterial { name, material, .. } in named {
+        let index = push(list, material);
+        let of_name = model.material_names.iter().enumerate().filter(|(_, known)| **known == name);
+        replaced.extend(of_name.map(|(of_model, _)| (of_model, index)));
+    }
+    replaced
 }
 
 fn push(list: &mut Vec<Material>, material: Material) -> usize {

@@ -206,12 +206,12 @@ fn what_is_not_read_is_told_once() {
     file["nodes"][0]["skin"] = json!(0);
     file["skins"] = json!([{ "joints": [0] }]);
     file["extensionsUsed"] =
-        json!(["KHR_materials_unlit", "EXT_mesh_gpu_instancing", "KHR_texture_transform", "KHR_materials_unlit"]);
+        json!(["KHR_materials_unlit", "KHR_materials_variants", "KHR_texture_transform", "KHR_materials_unlit"]);
     assert_eq!(
         load(&file).1,
         [
             "gltf-ignored: not read: 4 materials (0 \"lamp\", 1, 2, …): emission; 3 materials (1, 2, 3): alpha (drawn opaque); \
-             node 0: skin; extensions: EXT_mesh_gpu_instancing, KHR_materials_unlit",
+             node 0: skin; extensions: KHR_materials_unlit, KHR_materials_variants",
             "gltf-mode: not drawn: 2 primitives (5 of mesh 0, 6 of mesh 0): points or lines",
         ]
     );

@@ -306,3 +306,98 @@ fn files_beside_are_read_and_links_out_are_not() {
     assert!(load_with("", CAMERA, "").is_err(), "an empty file");
     assert!(Scene::load(Path::new("no/such.scene.ron"), &Overrides::new(), &Arc::default()).is_err());
 }
+
+/// Each place of an instanced mesh is node · translation · rotation · scale, and the node itself draws nothing.
+#[test]
+fn meshes_are_drawn_at_every_place() {
+    let file = |change: &dyn Fn(&mut Value)| {
+        let mut file =
+            File::new(json!({ "nodes": [{ "mesh": 0, "translation": [0, 0, 5], "children": [1] }, { "mesh": 0 }] }));
+        let position = file.floats("VEC3", &[1., 0., 0., 0., 1., 0., 0., 0., 0.]);
+        file.json["meshes"] = json!([{ "primitives": [{ "attributes": { "POSITION": position } }] }]);
+        let translation = file.floats("VEC3", &[10., 0., 0., 20., 0., 0.]);
+        let half = std::f32::consts::FRAC_1_SQRT_2;
+        let rotation = file.floats("VEC4", &[0., 0., 0., 1., 0., 0., half, half]);
+        let scale = file.floats("VEC3", &[1., 1., 1., 3., -2., 1.]);
+        let attributes = json!({ "TRANSLATION": translation, "ROTATION": rotation, "SCALE": scale });
+        file.json["nodes"][0]["extensions"] = json!({ "EXT_mesh_gpu_instancing": { "attributes": attributes } });
+        file.json["extensionsRequired"] = json!(["EXT_mesh_gpu_instancing"]);
+        file.json["extensionsUsed"] = json!(["EXT_mesh_gpu_instancing"]);
+        change(&mut file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]);
+        load_with(&file.text(), CAMERA, "")
+    };
+    let (scene, warnings) = file(&|_| ()).unwrap_or_else(|errors| panic!("{}", render_text(&errors, false)));
+    assert!(warnings.is_empty());
+    let frame = scene.at(0.0);
+    let places: Vec<[DVec3; 2]> =
+        frame.transforms.iter().map(|at| [DVec3::X, DVec3::Y].map(|corner| at.transform_point3(corner))).collect();
+    let expected = [
+        [DVec3::new(11.0, 0.0, 5.0), DVec3::new(10.0, 1.0, 5.0)],
+        // Scaled by 3 and -2, a quarter turn about z.
+        [DVec3::new(20.0, 3.0, 5.0), DVec3::new(22.0, 0.0, 5.0)],
+        // The child, which is not instanced.
+        [DVec3::new(1.0, 0.0, 5.0), DVec3::new(0.0, 1.0, 5.0)],
+    ];
+    assert_eq!(places.len(), 3);
+    assert!(
+        places.iter().flatten().zip(expected.iter().flatten()).all(|(a, b)| (*a - *b).length() < 1e-6),
+        "{places:?}"
+    );
+    // One mesh, drawn three times.
+    assert!(scene.instances.iter().all(|instance| Arc::ptr_eq(&instance.mesh, &scene.instances[0].mesh)));
+    let told =
+        |change: &dyn Fn(&mut Value)| file(change).map_or_else(|errors| render_text(&errors, false), |_| String::new());
+    for (value, message) in [
+        (json!(99), "node 0, EXT_mesh_gpu_instancing: accessor 99 does not exist"),
+        (json!("x"), "TRANSLATION is \"x\", and not the index of an accessor"),
+        (json!(0), "2 elements beside 3"),
+    ] {
+        let text = told(&|attributes| attributes["TRANSLATION"] = value.clone());
+        assert!(text.contains(message), "{text}");
+    }
+}
+
+/// Of a float there may be any value; a surface reflects what it gets and no more.
+#[test]
+fn colours_beyond_what_is_reflected_are_told() {
+    let told = |colors: &[f32]| {
+        let mut file = File::new(json!({ "nodes": [{ "mesh": 0 }] }));
+        let position = file.floats("VEC3", &ZIGZAG[..9]);
+        let color = file.floats("VEC3", colors);
+        file.json["meshes"] = json!([{ "primitives": [{ "attributes": { "POSITION": position, "COLOR_0": color } }] }]);
+        let (scene, warnings) = load_with(&file.text(), CAMERA, "").expect("it is sound");
+        assert!(scene.instances[0].mesh.colors.iter().all(|color| color.max_element() <= 1.0));
+        render_text(&warnings, false)
+    };
+    assert_eq!(told(&[1.0001, 0., 0., 0., 1., 0., 0., 0., 1.]), "");
+    let text = told(&[1.5, 0., 0., 0., 1., 0., 0., 0., 1.]);
+    assert!(text.contains("not read: primitive 0 of mesh 0: vertex colours outside 0..1 (clamped)"), "{text}");
+}
+
+#[test]
+fn materials_are_replaced_by_name() {
+    let mut file = File::new(json!({ "nodes": [{ "mesh": 0 }] }));
+    let position = file.floats("VEC3", &ZIGZAG[..9]);
+    let color = file.floats("VEC3", &[0.5; 9]);
+    let primitive =
+        |material: u32| json!({ "attributes": { "POSITION": position, "COLOR_0": color }, "material": material });
+    file.json["meshes"] = json!([{ "primitives": [primitive(0), primitive(1), primitive(2)] }]);
+    file.json["materials"] = json!([{ "name": "Paint" }, { "name": "Rust" }, { "name": "Paint" }]);
+    let text = file.text();
+    let load = |object: &str| load_with(&text, CAMERA, object);
+    let (scene, _) = load("materials: { \"Paint\": (diffuse: (1, 0, 0), shininess: 7) }").expect("it is sound");
+    let drawn: Vec<_> = scene.instances.iter().map(|i| (&scene.materials[i.material], i.has_colors)).collect();
+    for at in [0, 2] {
+        assert_eq!((drawn[at].0.diffuse, drawn[at].0.shininess, drawn[at].1), (DVec3::X, 7.0, false));
+    }
+    assert!(drawn[1].0.metallic_roughness.is_some() && drawn[1].1);
+    let told = |object: &str| load(object).map_or_else(|errors| render_text(&errors, false), |_| String::new());
+    for (object, message) in [
+        ("materials: { \"Pain\": () }", "did you mean `Paint`?"),
+        ("materials: { \"Paint\": () }, material: ()", "`material` replaces every material already"),
+        ("materials: { \"Paint\": (difuse: (1, 1, 1)) }", "diffuse"),
+        ("materials: [()]", "a map"),
+    ] {
+        assert!(told(object).contains(message), "{object}: {}", told(object));
+    }
+}

@@ -13,6 +13,7 @@ use crate::App;
 use crate::cli::{Arguments, Bench};
 use crate::failure::Failure;
 use crate::loading::{self, Wanted};
+use crate::warnings::Untold;
 use crate::{plugins, terminal};
 
 /// Most frames in which each pass is timed by itself: enough for a median.
@@ -42,7 +43,7 @@ struct PassFigures {
 
 pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Bench) -> Result<(), Failure> {
     let registry = plugins::registry(app, arguments, &[&verb.graph.graph])?;
-    let loaded = loading::load(&verb.graph, &registry)?;
+    let loaded = loading::load(&verb.graph, &registry, &Untold::of_models())?;
     let varied = verb.vary.iter().map(|text| Varied::parse(text, &loaded.graph)).collect::<Result<Vec<_>, _>>()?;
     let live: Vec<String> = varied.iter().map(|varied| varied.name.clone()).collect();
     let start = Instant::now();
@@ -69,7 +70,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Bench) -> Result<(), 
         gpu_times.extend(report.gpu_us);
     }
     let passes = time_passes(&mut running, verb)?;
-    loading::warn_of_unfinished(&running)?;
+    loading::warn_of_unfinished(&running, &Untold::of_models())?;
     let plan: &Plan = running.executor.plan();
     let figures = Figures {
         adapter: gpu.info.name.clone(),

@@ -8,11 +8,13 @@ use tyndall_scene::{Overrides, Scene};
 use crate::App;
 use crate::cli::{Arguments, Check, Format, GraphArguments};
 use crate::failure::Failure;
+use crate::warnings::Untold;
 use crate::{loading, plugins, terminal};
 
 use super::compare;
 
 pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Check) -> Result<(), Failure> {
+    let untold = Untold::of(&verb.warnings)?;
     let mut out = Diagnostics::default();
     for path in &verb.files {
         let mut found = Diagnostics::default();
@@ -36,6 +38,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Check) -> Result<(), 
     }
     // Two graphs that name the same scene report its mistakes once.
     out.dedup();
+    let out = untold.without(out);
     match verb.format {
         Format::Json => terminal::line(&render_json(&out)),
         Format::Text => {

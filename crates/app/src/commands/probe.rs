@@ -9,11 +9,12 @@ use crate::App;
 use crate::cli::{Arguments, Probe};
 use crate::failure::Failure;
 use crate::loading::{self, Wanted};
+use crate::warnings::Untold;
 use crate::{plugins, terminal};
 
 pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Probe) -> Result<(), Failure> {
     let registry = plugins::registry(app, arguments, &[&verb.graph.graph])?;
-    let loaded = loading::load(&verb.graph, &registry)?;
+    let loaded = loading::load(&verb.graph, &registry, &Untold::of_models())?;
     let port = loaded.graph.find(&verb.port, Place::Argument(verb.port.clone()))?;
     let plan = loading::plan(&loaded, Wanted { roots: Roots::Ports(vec![port]), keep: false, live: &[] })?;
     let planned = plan
@@ -22,7 +23,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Probe) -> Result<(), 
     let gpu = Gpu::open(verb.adapter.as_deref())?;
     let mut running = Running::new(&gpu, plan, loaded.scene.as_ref(), &registry, &mut PipelineCache::default())?;
     running.frame(FrameOptions { frame: verb.frame, ..FrameOptions::default() })?;
-    loading::warn_of_unfinished(&running)?;
+    loading::warn_of_unfinished(&running, &Untold::of_models())?;
     let data = running.executor.read(planned)?;
     let (x, y) = verb.pixel;
     if x >= data.width() || y >= data.height() {

@@ -15,6 +15,7 @@ use crate::cli::{Arguments, Render};
 use crate::failure::Failure;
 use crate::loading::{self, Loaded, Wanted};
 use crate::pictures::{distinct, no_picture, write_port};
+use crate::warnings::Untold;
 use crate::{plugins, terminal};
 
 /// A port, and the file that it goes to (with `####` for the number of a frame).
@@ -26,9 +27,10 @@ struct Output {
 /// Renders, and returns the files that the pictures depend on.
 pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Render) -> Result<Vec<PathBuf>, Failure> {
     let mut clock = Clock::start(app);
+    let untold = Untold::of(&verb.warnings)?;
     let registry = plugins::registry(app, arguments, &[&verb.graph.graph])?;
     clock.lap("plugins");
-    let loaded = loading::load(&verb.graph, &registry)?;
+    let loaded = loading::load(&verb.graph, &registry, &untold)?;
     let depends_on = depends_on(verb, &loaded);
     let outputs = outputs(verb, &loaded.graph)?;
     clock.lap("graph and scene");
@@ -56,7 +58,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Render) -> Result<Vec
         progress.inc(1);
     }
     progress.finish_and_clear();
-    loading::warn_of_unfinished(&running)?;
+    loading::warn_of_unfinished(&running, &untold)?;
     terminal::line(&clock.summary());
     Ok(depends_on)
 }

@@ -12,6 +12,7 @@ use tyndall_testing::{Options, Outcome, Problem, Report, Robustness, Saved, Sess
 use crate::App;
 use crate::cli::{Arguments, Test};
 use crate::failure::Failure;
+use crate::warnings::Untold;
 use crate::{plugins, terminal};
 
 pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Test) -> Result<(), Failure> {
@@ -214,8 +215,9 @@ fn told(outcome: &Outcome, earlier: &mut Told) {
     for line in &outcome.left_out {
         terminal::line(&format!("  left out: {line}"));
     }
-    if !outcome.warnings.is_empty() {
-        terminal::error(&render_text(&outcome.warnings, terminal::color()));
+    let warnings = Untold::of_models().without(outcome.warnings.clone());
+    if !warnings.is_empty() {
+        terminal::error(&render_text(&warnings, terminal::color()));
     }
     terminal::text(&earlier.text(outcome));
 }

@@ -12,7 +12,7 @@ use tyndall_document::{Decoder, Node, Span, Value};
 
 pub(crate) use self::camera::CameraDraft;
 pub(crate) use self::medium::MediumDraft;
-pub(crate) use self::objects::{MeshDraft, ObjectDraft};
+pub(crate) use self::objects::{MeshDraft, NamedMaterial, ObjectDraft};
 use crate::field::{Fields, Holder};
 use crate::model::Light;
 use crate::read::{Range, SceneReader, vector};

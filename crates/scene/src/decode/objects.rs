@@ -5,13 +5,14 @@ use tyndall_document::{Decoder, Diagnostic, Fields, Node, OUT_OF_RANGE, Span, Va
 
 use super::{Reader, given, parts_of, path, variant};
 use crate::animate::Animated;
-use crate::codes::BRIGHTER_THAN_WHITE;
+use crate::codes::{BRIGHTER_THAN_WHITE, NAMED_MATERIALS};
 use crate::field::{Fields as PluginFields, Holder};
 use crate::model::Material;
 use crate::primitives::Primitive;
 use crate::read::{Range, SceneReader, animated, direction, number, numbers, vector};
 
-pub(super) const OBJECT_FIELDS: &[&str] = &["mesh", "translation", "rotation", "scale", "material", "casts_shadow"];
+pub(super) const OBJECT_FIELDS: &[&str] =
+    &["mesh", "translation", "rotation", "scale", "material", "materials", "casts_shadow"];
 pub(super) const MATERIAL_FIELDS: &[&str] = &["diffuse", "specular", "shininess"];
 
 /// What a scene file says of an object.
@@ -22,9 +23,21 @@ pub(crate) struct ObjectDraft {
     pub rotation: DQuat,
     pub scale: DVec3,
     pub material: Option<Material>,
+    /// Those that replace materials of the file, each with the name that it has there.
+    pub materials: Vec<NamedMaterial>,
     pub casts_shadow: bool,
     /// Those that plugins bring.
     pub fields: PluginFields,
+}
+
+/// A material of a file that is replaced.
+#[derive(Debug)]
+pub(crate) struct NamedMaterial {
+    /// In the file.
+    pub name: String,
+    /// Of the name in the scene file.
+    pub span: Span,
+    pub material: Material,
 }
 
 /// What a scene file says of a mesh.
@@ -50,6 +63,7 @@ fn object(decoder: &mut SceneReader<'_>, node: &Node) -> Option<ObjectDraft> {
     let rotation = given(fields.get("rotation"), DQuat::IDENTITY, |n| rotation(decoder, n));
     let scale = given(fields.get("scale"), DVec3::ONE, |n| scale(decoder, n));
     let material = given(fields.get("material"), None, |n| material(decoder, n).map(Some));
+    let materials = given(fields.get("materials"), Vec::new(), |n| materials(decoder, n, &fields));
     let casts_shadow = given(fields.get("casts_shadow"), true, |n| decoder.bool(n));
     Some(ObjectDraft {
         mesh: mesh?,
@@ -57,6 +71,7 @@ fn object(decoder: &mut SceneReader<'_>, node: &Node) -> Option<ObjectDraft> {
         rotation: rotation?,
         scale: scale?,
         material: material?,
+        materials: materials?,
         casts_shadow: casts_shadow?,
         fields: own?,
     })
@@ -94,6 +109,28 @@ fn material(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Material> {
     }
     let (diffuse, specular, shininess, fields) = (diffuse?, specular?, shininess?, own?);
     Some(Material { diffuse, specular, shininess, fields, ..default })
+}
+
+/// `{ "Paint": (diffuse: …) }`, for an object of a file that has no `material` for all of it.
+fn materials(decoder: &mut SceneReader<'_>, node: &Node, fields: &Fields) -> Option<Vec<NamedMaterial>> {
+    let of_file =
+        matches!(fields.get("mesh").map(|mesh| &mesh.value), Some(Value::Variant { name, .. }) if name == "File");
+    let mistake = match fields.get("material") {
+        Some(_) => Some(("`material` replaces every material already", "leave one of the two out")),
+        None if !of_file => Some(("only a mesh of a file has materials with names", "write `material: (…)`")),
+        None => None,
+    };
+    if let Some((message, hint)) = mistake {
+        let place = decoder.place(node.span);
+        decoder.report(Diagnostic::error(NAMED_MATERIALS, place, message).suggest(hint));
+        return None;
+    }
+    let read = |decoder: &mut SceneReader<'_>, (name, span, node): (&str, Span, &Node)| {
+        material(decoder, node).map(|material| NamedMaterial { name: name.to_owned(), span, material })
+    };
+    let items = decoder.map(node)?;
+    let read: Vec<Option<NamedMaterial>> = items.into_iter().map(|item| read(decoder, item)).collect();
+    read.into_iter().collect()
 }
 
 fn mesh(decoder: &mut SceneReader<'_>, node: &Node) -> Option<MeshDraft> {

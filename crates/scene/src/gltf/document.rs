@@ -14,7 +14,8 @@ use super::fault::{Checked, Fault, element};
 use crate::codes::{GLTF_EXTENSION, GLTF_SYNTAX, GLTF_VERSION};
 
 /// The extensions that are read.
-const SUPPORTED: &[&str] = &["KHR_lights_punctual", "KHR_texture_transform", "KHR_mesh_quantization"];
+const SUPPORTED: &[&str] =
+    &["KHR_lights_punctual", "KHR_texture_transform", "KHR_mesh_quantization", "EXT_mesh_gpu_instancing"];
 
 /// The JSON of a file.
 pub(crate) struct Document {
@@ -22,7 +23,7 @@ pub(crate) struct Document {
     pub left_out: LeftOut,
 }
 
-/// What a file leaves out and [`Root`] has all the same.
+/// What a file leaves out and [`Root`] has all the same, and what it has and [`Root`] does not.
 #[derive(Debug, Default)]
 pub(crate) struct LeftOut {
     /// Animation and channel, of channels without a target node.
@@ -31,6 +32,8 @@ pub(crate) struct LeftOut {
     pub sources: BTreeMap<usize, Vec<String>>,
     /// Mesh and primitive, of primitives whose vertices an extension compresses: accessors of theirs may have no bytes.
     pub vertices: BTreeSet<(usize, usize)>,
+    /// By node, the attributes of EXT_mesh_gpu_instancing.
+    pub instancing: BTreeMap<usize, Value>,
 }
 
 impl Document {
@@ -88,6 +91,11 @@ fn complete(json: &mut Value) -> LeftOut {
             let extensions = texture.get("extensions").and_then(Value::as_object);
             left_out.sources.insert(index, extensions.into_iter().flat_map(Map::keys).cloned().collect());
         }
+    }
+    for (node, object) in objects(json, "nodes") {
+        let extension = object.get("extensions").and_then(|extensions| extensions.get("EXT_mesh_gpu_instancing"));
+        let attributes = extension.map(|extension| extension.get("attributes").cloned().unwrap_or_default());
+        left_out.instancing.extend(attributes.map(|attributes| (node, attributes)));
     }
     for (mesh, object) in objects(json, "meshes") {
         for (primitive, object) in object.get("primitives").and_then(Value::as_array).into_iter().flatten().enumerate()

@@ -78,6 +78,7 @@ impl Unread {
 
     pub const SKIN: Self = Self::new("node", "skin");
     pub const ORTHOGRAPHIC: Self = Self::new("camera", "orthographic projection");
+    pub const BRIGHT_COLORS: Self = Self::new("primitive", "vertex colours outside 0..1 (clamped)");
     pub const MORPH_TARGETS: Self = Self::new("primitive", "morph targets");
     pub const MORPH_WEIGHTS: Self = Self::new("channel", "weights of morph targets");
     pub const NO_TARGET: Self = Self::new("channel", "no target node");

@@ -49,13 +49,13 @@ impl Budget {
     }
 }
 
-/// The mesh of a primitive, `None` where it has no triangles (points and lines).
+/// The mesh of a primitive, `None` where it has no triangles (points and lines), and whether its colours were clamped.
 pub(crate) fn mesh(
     data: Data,
     primitive: &Primitive,
     uv: Option<UvSource>,
     budget: &mut Budget,
-) -> Checked<Option<Mesh>> {
+) -> Checked<Option<(Mesh, bool)>> {
     let Valid(mode) = primitive.mode else { return Err(Fault::new(GLTF_MODE, "unknown mode")) };
     if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
         return Ok(None);
@@ -71,9 +71,9 @@ pub(crate) fn mesh(
         None => vec![Vec2::ZERO; vertices],
     };
     let positions = positions.into_iter().map(Vec3::from_array).collect();
-    let colors = match attribute(Semantic::Colors(0)) {
+    let (colors, clamped) = match attribute(Semantic::Colors(0)) {
         Some(index) => colors(data, index, vertices).at(|| "COLOR_0".into())?,
-        None => Vec::new(),
+        None => (Vec::new(), false),
     };
     let mut mesh = Mesh { positions, normals: Vec::new(), uvs, colors, triangles };
     mesh.turn_triangles();
@@ -90,7 +90,7 @@ pub(crate) fn mesh(
             mesh.repair_normals();
         }
     }
-    Ok(Some(mesh))
+    Ok(Some((mesh, clamped)))
 }
 
 /// Whether the positions of a primitive stand in a buffer.
@@ -127,13 +127,14 @@ fn uvs(data: Data, accessor: Option<usize>, uv: UvSource, vertices: usize) -> Ch
     Ok(values.into_iter().map(transform).collect())
 }
 
-/// Linear factors of the base colour (glTF 2.0, 3.9.2); alpha is drawn opaque.
-fn colors(data: Data, accessor: usize, vertices: usize) -> Checked<Vec<Vec3>> {
+/// Linear factors of the base colour (glTF 2.0, 3.9.2), and whether one was clamped; alpha is drawn opaque.
+fn colors(data: Data, accessor: usize, vertices: usize) -> Checked<(Vec<Vec3>, bool)> {
     same_count(data, accessor, vertices)?;
-    let values = data.triples(accessor, COLOR)?;
-    // A surface reflects what it gets and no more.
-    let reflectance = |value: [f32; 3]| Vec3::from_array(value).clamp(Vec3::ZERO, Vec3::ONE);
-    Ok(values.into_iter().map(reflectance).collect())
+    let values: Vec<Vec3> = data.triples(accessor, COLOR)?.into_iter().map(Vec3::from_array).collect();
+    // A surface reflects what it gets and no more. Exporters round.
+    let clamped: Vec<Vec3> = values.iter().map(|value| value.clamp(Vec3::ZERO, Vec3::ONE)).collect();
+    let differs = values.iter().zip(&clamped).any(|(value, clamped)| (*value - *clamped).abs().max_element() > 1e-3);
+    Ok((clamped, differs))
 }
 
 fn triangles(

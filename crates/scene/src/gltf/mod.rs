@@ -10,6 +10,7 @@ mod document;
 mod fault;
 mod files;
 mod images;
+mod instancing;
 mod lights;
 mod materials;
 mod meshes;
@@ -27,9 +28,10 @@ use self::accessors::{Data, absent};
 use self::document::Document;
 use self::fault::{At, Checked, Fault, Report, Unread, element, numbered};
 use self::files::Folder;
+use self::instancing::MOST_PLACES;
 use self::materials::Materials;
 use self::meshes::Budget;
-use crate::codes::{GLTF_BUFFER_RANGE, GLTF_EXTENSION, GLTF_REFERENCE};
+use crate::codes::{GLTF_BUFFER_RANGE, GLTF_EXTENSION, GLTF_REFERENCE, GLTF_TOO_LARGE};
 use crate::mesh::Mesh;
 use crate::model::{Material, Node, Texture};
 
@@ -44,6 +46,8 @@ pub(crate) struct Model {
     pub nodes: Arc<Vec<Node>>,
     pub parts: Vec<Part>,
     pub materials: Vec<Material>,
+    /// By material; empty where the file gives none.
+    pub material_names: Vec<String>,
     pub textures: Vec<Texture>,
     pub lights: Vec<ModelLight>,
     /// Node and whole vertical angle (radians) of the first perspective camera.
@@ -91,6 +95,8 @@ fn model(bytes: &[u8], folder: &mut Folder, report: &mut Report) -> Checked<Mode
     let data = Data { root: &root, left_out: &left_out, buffers: &buffers };
     let tracks = motion::tracks(data, report);
     let hierarchy = nodes::hierarchy(&root, tracks)?;
+    let mut places = instancing::places(data)?;
+    let mut nodes: Vec<Node> = hierarchy.iter().map(|(_, node)| node.clone()).collect();
     let drawn: BTreeSet<usize> =
         hierarchy.iter().filter_map(|(index, _)| root.nodes[*index].mesh.map(|m| m.value())).collect();
     let primitives = drawn.iter().filter_map(|&m| root.meshes.get(m)).flat_map(|m| &m.primitives);
@@ -108,18 +114,26 @@ fn model(bytes: &[u8], folder: &mut Folder, report: &mut Report) -> Checked<Mode
         if json.skin.is_some() {
             report.unread(Unread::SKIN, numbered(*index, json.name.as_deref()));
         }
-        for (mesh, material) in meshes.get(&mesh).into_iter().flatten() {
-            parts.push(Part { node, mesh: Arc::clone(mesh), material: *material });
+        let drawn = meshes.get(&mesh).map(Vec::as_slice).unwrap_or_default();
+        if parts.len() + drawn.len() * places.get(index).map_or(1, Vec::len) > MOST_PLACES {
+            let message = format!("more than {MOST_PLACES} primitives are drawn");
+            return Err(Fault::new(GLTF_TOO_LARGE, message)).at(label);
+        }
+        for at in nodes::instanced(&mut nodes, node, places.remove(index)) {
+            let part = |(mesh, material): &Drawn| Part { node: at, mesh: Arc::clone(mesh), material: *material };
+            parts.extend(drawn.iter().map(part));
         }
     }
     let lights = lights::lights(&root, &hierarchy, report);
     let camera = lights::camera(&root, &hierarchy, report);
-    let nodes = Arc::new(hierarchy.into_iter().map(|(_, node)| node).collect());
-    Ok(Model { nodes, parts, materials: materials.materials, textures: materials.textures, lights, camera })
+    let nodes = Arc::new(nodes);
+    let Materials { materials, textures, .. } = materials;
+    let material_names = root.materials.iter().map(|material| material.name.clone().unwrap_or_default()).collect();
+    Ok(Model { nodes, parts, materials, material_names, textures, lights, camera })
 }
 
 /// Mesh and material of each primitive of each drawn mesh.
-type Meshes = BTreeMap<usize, Vec<(Arc<Mesh>, Option<usize>)>>;
+type Meshes = BTreeMap<usize, Vec<Drawn>>;
 
 fn meshes_of(data: Data, drawn: &BTreeSet<usize>, materials: &Materials, report: &mut Report) -> Meshes {
     let mut budget = Budget { left: MOST_ELEMENTS };
@@ -133,7 +147,12 @@ fn meshes_of(data: Data, drawn: &BTreeSet<usize>, materials: &Materials, report:
             match primitive(data, (index, json), number, materials, &mut budget)
                 .at(|| format!("{mesh}, primitive {number}"))
             {
-                Ok(Some(part)) => primitives.push(part),
+                Ok(Some((part, clamped))) => {
+                    primitives.push(part);
+                    if clamped {
+                        unread(report, Unread::BRIGHT_COLORS);
+                    }
+                }
                 Ok(None) => unread(report, Unread::POINTS_AND_LINES),
                 Err(fault) => report.fault(fault),
             }
@@ -153,7 +172,7 @@ fn primitive(
     number: usize,
     materials: &Materials,
     budget: &mut Budget,
-) -> Checked<Option<Drawn>> {
+) -> Checked<Option<(Drawn, bool)>> {
     let json = &mesh.primitives[number];
     if data.left_out.vertices.contains(&(index, number)) && !meshes::has_bytes(data, json) {
         let message = "its vertices are compressed by KHR_draco_mesh_compression, which is not read";
@@ -165,7 +184,7 @@ fn primitive(
     }
     let uv = material.and_then(|index| materials.uvs[index]);
     let mesh = meshes::mesh(data, json, uv, budget)?;
-    Ok(mesh.map(|mesh| (Arc::new(mesh), material)))
+    Ok(mesh.map(|(mesh, clamped)| ((Arc::new(mesh), material), clamped)))
 }
 
 /// The bytes of every buffer, each at least as long as announced.

@@ -72,6 +72,21 @@ fn node(json: &JsonNode, tracks: Option<Tracks>, parent: Option<(usize, &Node)>)
     Ok(Node { parent: parent.map(|p| p.0), transform, moves, may_flip })
 }
 
+/// The nodes at which the mesh of a node is drawn: itself, or one for each of its places, which are put behind the others.
+pub(crate) fn instanced(nodes: &mut Vec<Node>, node: usize, places: Option<Vec<DAffine3>>) -> Vec<usize> {
+    let Some(places) = places else { return vec![node] };
+    let first = nodes.len();
+    let Node { moves, may_flip, .. } = nodes[node];
+    let parent = Some(node);
+    nodes.extend(places.into_iter().map(|place| Node {
+        parent,
+        transform: NodeTransform::Fixed(place),
+        moves,
+        may_flip,
+    }));
+    (first..nodes.len()).collect()
+}
+
 fn affine(matrix: [f32; 16]) -> Checked<DAffine3> {
     let matrix = Mat4::from_cols_array(&matrix);
     if !matrix.is_finite() {
