@@ -13,7 +13,7 @@ alias Integrand = Piece;
 // A node's share of the sum.
 fn at_node(piece: Piece, node: vec2<f32>) -> vec3<f32> {
     let sample = sample_of(piece, node);
-    return sample.share * exp2(sample.falloff + piece.rate * (piece.t + piece.h * sample.v));
+    return sample.share * exp2(sample.falloff + piece.rate * max(piece.t + piece.h * sample.v, 0.0));
 }
 
 // Airlight of a piece without sigma_s I.
@@ -80,7 +80,7 @@ fn piece_at(cursor: Cursor, light: Light, medium: Medium, phase: Phase, ray: Ray
 
 // What `piece_airlight` gives of it, as radiance; a directional light needs none of that.
 fn airlight_of_piece(found: PieceAt, sum: vec3<f32>, light: Light, medium: Medium, phase: Phase, ray: Ray, part: vec2<f32>) -> PieceOfAirlight {
-    let scattered = medium.scattering * light.intensity * sum;
+    let scattered = finite(medium.scattering * light.intensity * sum);
     let directional = directional_airlight(light, lobe_of(phase, found.lobe), medium, ray, part);
     return PieceOfAirlight(select(scattered, directional, light.kind == DIRECTIONAL), found.next);
 }

@@ -52,6 +52,9 @@ fn light_beside_ray(light: Light, ray: Ray) -> LightBesideRay {
     return LightBesideRay(dot(to_light, ray.direction), sqrt(max(true_h2, floor_h2)), from_light);
 }
 
+// So that squares of v stay finite.
+const MOST_V: f32 = 1e15;
+
 // A part of the ray in v. The width is kept beside the start, as their difference would cancel.
 struct Interval {
     start: f32,
@@ -74,7 +77,7 @@ fn interval_between(beside: LightBesideRay, near: f32, far: f32) -> Interval {
     let r1 = sqrt(h * h + s1 * s1);
     let v0 = select(h, r0 + s0, s0 > 0.0) / select(r0 - s0, h, s0 > 0.0);
     let v1 = select(h, r1 + s1, s1 > 0.0) / select(r1 - s1, h, s1 > 0.0);
-    return Interval(v0, max(min(x * (v0 + v1) / (r0 + r1), 1e15), 0.0));
+    return Interval(min(v0, MOST_V), clamp(x * (v0 + v1) / (r0 + r1), 0.0, MOST_V));
 }
 
 // A piece of a ray, ready for its nodes.
@@ -82,8 +85,8 @@ struct Piece {
     rho: f32,
     squared: u32,               // see Lobe
     mu_squared: f32,
-    middle: f32,                // v where y = 0
-    slope: f32,                 // tan(psi_m/2); of a table what v_of_rest lacks at the start
+    middle: f32,                // sin(psi_m/2); of a table the rest in the middle
+    slope: f32,                 // cos(psi_m/2); of a table what v_of_rest lacks at the start
     reach: f32,
     bend: f32,                  // how far nodes move to the far end
     weight: f32,                // of the sum of the nodes
@@ -120,11 +123,11 @@ fn piece_of(lobe: Lobe, light: Light, spot: SpotBesideRay, beside: LightBesideRa
     let slope = middle / lobe.rho;
     let reach = lobe.rho * width / (d0 * d1 + rho2 + start * end);
     let bend = bend_of(depth_of_v, middle - start, width);
-    let norm = inverseSqrt(1.0 + slope * slope);
-    let weight = 2.0 * lobe.scale / (beside.h * rho2) * reach * norm * select(1.0, norm / lobe.rho, lobe.squared != 0u);
+    let cosine = inverseSqrt(1.0 + slope * slope);
+    let weight = 2.0 * lobe.scale / (beside.h * rho2) * reach * select(1.0, 1.0 / lobe.rho, lobe.squared != 0u);
     let rate = medium.extinction * -1.4426950408889634;
     let exponent = select(0.0, light.exponent, light.kind == SPOT);
-    return Piece(lobe.rho, lobe.squared, lobe.mu_squared, middle, slope, reach, bend, weight, beside.t, beside.h, rate,
+    return Piece(lobe.rho, lobe.squared, lobe.mu_squared, slope * cosine, cosine, reach, bend, weight, beside.t, beside.h, rate,
         spot.along, spot.across, exponent);
 }
 
@@ -173,9 +176,9 @@ fn sample_of_table(piece: Piece, node: vec2<f32>) -> NodeSample {
 fn sample_of_lobe(piece: Piece, node: vec2<f32>) -> NodeSample {
     let x = node.x;
     let y = piece.reach * (x + piece.bend * (1.0 - x * x));
-    // cos and sin of psi/2, times a length that cancels; the latter times rho
-    let c = 1.0 - piece.slope * y;
-    let s = piece.middle + piece.rho * y;
+    // cos and sin of psi/2, times sqrt(b); the latter times rho. So neither grows with v, which may be any
+    let c = piece.slope - piece.middle * y;
+    let s = piece.rho * (piece.middle + piece.slope * y);
     let b = 1.0 + y * y;
     let q = c * c + s * s;
     // v = s/c, mu = (c^2 - s^2)/q and 1/b from one division

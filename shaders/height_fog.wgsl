@@ -123,7 +123,7 @@ fn height_airlight(cursor: HeightCursor, light: Light, medium: Medium, fog: Heig
         piece = piece_of(lobe, light, spot, beside, medium, depth_of_v, chunk.interval);
     }
     let sum = piece.weight * sum_over_nodes(Integrand(piece, climb, light_height), nodes);
-    let scattered = medium.scattering * light.intensity * sum;
+    let scattered = finite(medium.scattering * light.intensity * sum);
     let is_sun = light.kind == DIRECTIONAL;
     let sun = light.intensity * directional_phase(light, lobe, ray) * sunlit(light, medium, fog, ray, way, attenuated_sun);
 

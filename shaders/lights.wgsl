@@ -7,6 +7,7 @@
 
 #import scene
 #import cone
+#import medium
 
 // Which lights reach a point: a bit for each, 32 in each of four channels.
 const BITS_OF_CHANNEL: u32 = 32u;
@@ -40,7 +41,7 @@ fn incident_light(light: Light, position: vec3<f32>) -> IncidentLight {
     let d = max(distance, light.radius);
     let to_light = away / distance;
     let falloff = select(1.0, spot_falloff(light, -dot(light.direction, to_light)), light.kind == SPOT);
-    let on_axis = light.intensity / (d * d);
+    let on_axis = finite(light.intensity / (d * d));
     return IncidentLight(to_light, on_axis * falloff, on_axis, d);
 }
 

@@ -22,6 +22,13 @@ fn opacity(medium: Medium, way: f32) -> vec3<f32> {
     return select(1.0 - exp(-depth), series, depth < vec3<f32>(0.06));
 }
 
+// More than any light that is meant: what is brighter counts as this, so that products with it stay numbers.
+const MOST_LIGHT: f32 = 1e30;
+
+fn finite(light: vec3<f32>) -> vec3<f32> {
+    return min(light, vec3<f32>(MOST_LIGHT));
+}
+
 // sigma_s/sigma_t; 0 where there is no extinction.
 fn albedo(medium: Medium) -> vec3<f32> {
     return medium.scattering / max(medium.extinction, vec3<f32>(1e-30));

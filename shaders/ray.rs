@@ -32,7 +32,8 @@ mod tests {
 
     #[test]
     fn the_first_row_is_the_top_and_rays_go_through_centres() {
-        let camera = Camera { position: DVec3::ONE, right: 2.0 * DVec3::X, up: DVec3::Y, forward: DVec3::NEG_Z };
+        let camera =
+            Camera { position: DVec3::ONE, nearest: 1e-6, right: 2.0 * DVec3::X, up: DVec3::Y, forward: DVec3::NEG_Z };
         let ray = ray_of_pixel(&camera, [0, 0], [4, 2]);
         let expected = DVec3::new(-1.5, 0.5, -1.0).normalize();
         assert!((ray.direction - expected).length() < 1e-15);

@@ -33,6 +33,8 @@ pub struct Scene {
 pub struct Camera {
     /// The eye, m.
     pub position: DVec3,
+    /// m along the view axis; closer than this nothing is drawn.
+    pub nearest: f64,
     /// To the right, scaled by the tangent of half the horizontal field of view.
     pub right: DVec3,
     /// Up, scaled by the tangent of half the vertical field of view.

@@ -20,7 +20,7 @@
 // The ray of a point of the image: normalize(forward + x * right + y * up), x and y from -1 to 1, x to the right, y up.
 struct Camera {
     position: vec3<f32>,        // m
-    padding: f32,
+    nearest: f32,               // m; closer than this nothing is drawn
     right: vec3<f32>,           // unit vector times the tangent of half the horizontal field of view
     pad0: f32,
     up: vec3<f32>,              // unit vector times the tangent of half the vertical field of view

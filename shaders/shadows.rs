@@ -53,19 +53,19 @@ pub fn height_above(point: DVec3, normal: DVec3, &[a, b, c]: &Caster) -> (f64, f
     (normal.dot(point - a), ROUNDED * normal.abs().dot(largest))
 }
 
-/// What is closer to the eye than this may not be seen, m: 16 times what no rasteriser draws (`NEAREST` of
-/// `visibility.wgsl`), as that is measured straight ahead.
-pub const UNSEEN: f64 = 1.6e-5;
+/// What is closer to the eye than this many times `nearest` of the camera may not be seen, as that is measured straight
+/// ahead.
+pub const UNSEEN: f64 = 16.0;
 
-/// Whether an edge passes through the eye: closer than it is seen, or than coordinates are rounded.
-pub fn edge_touches(eye: DVec3, [a, b]: [DVec3; 2]) -> bool {
+/// Whether an edge passes through the eye: closer than `unseen`, m, or than coordinates are rounded.
+pub fn edge_touches(eye: DVec3, unseen: f64, [a, b]: [DVec3; 2]) -> bool {
     // The same whichever end comes first.
     let (a, b) = if a.to_array() <= b.to_array() { (a, b) } else { (b, a) };
     let along = b - a;
     let part = ((eye - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
     let apart = eye - (a + part * along);
     let largest = a.abs().max(b.abs()).max(eye.abs());
-    apart.length_squared() <= ROUNDED * apart.abs().dot(largest) + UNSEEN * apart.length()
+    apart.length_squared() <= ROUNDED * apart.abs().dot(largest) + unseen * apart.length()
 }
 
 /// The lit intervals of the first `way` metres of a ray, which may be infinite, in order, m.

@@ -1,6 +1,6 @@
 // Which triangle each pixel's ray meets first, by rasterising them all.
 //
-// No near or far plane cuts what the camera sees: the depth buffer holds NEAREST / t (t the distance in multiples of the
+// No near or far plane cuts what the camera sees: the depth buffer holds nearest / t (t the distance in multiples of the
 // view ray), reversed, in 32-bit float, so its relative precision is the same at every distance. t comes from the ray
 // and the triangle's plane and not from the rasteriser's interpolation, whose error over a large triangle would be
 // relative to its nearest corner.
@@ -9,9 +9,6 @@
 var<uniform> camera: Camera;
 var<storage, read> vertices: Vertices;
 var<storage, read> triangles: Triangles;
-
-// m; closer than this nothing is drawn.
-const NEAREST = 1e-6;
 
 // Relative; a few steps of the 32-bit depth buffer.
 const BACK_FACE_BIAS = 1e-6;
@@ -33,7 +30,7 @@ fn project(@builtin(vertex_index) index: u32) -> Corner {
     let x = dot(p, camera.right) / dot(camera.right, camera.right);
     let y = dot(p, camera.up) / dot(camera.up, camera.up);
     let w = dot(p, camera.forward);
-    return Corner(vec4(x, y, NEAREST, w), p, triangle);
+    return Corner(vec4(x, y, camera.nearest, w), p, triangle);
 }
 
 struct Visible {
@@ -56,10 +53,10 @@ fn shade(corner: Corner) -> Visible {
     let depths = camera.forward * mat3x3(a, b, c);
     let nearest = min(min(depths.x, depths.y), depths.z);
     let farthest = max(max(depths.x, depths.y), depths.z);
-    let t = clamp(plane, max(nearest, NEAREST), farthest);
+    let t = clamp(plane, max(nearest, camera.nearest), farthest);
     // Where two faces meet in an outline, the one that faces the eye wins.
     let behind = select(1.0, 1.0 + BACK_FACE_BIAS, dot(normal, ray) > 0.0);
     // Seen edge on, the plane says nothing; the rasteriser's own depth will do.
-    let depth = select(corner.clip.z, NEAREST / (t * behind), t >= NEAREST && t < 1e30);
+    let depth = select(corner.clip.z, camera.nearest / (t * behind), t >= camera.nearest && t < 1e27);
     return Visible(corner.triangle + 1u, depth);
 }

@@ -87,7 +87,7 @@ fn march_point(marched: Marched, beside: LightBesideRay, scattering: Phase, ray:
         sum += f32(~hidden & 1u) * point.density * exp(-medium.extinction * point.path);
     }
     stopped = stopped || i < count;
-    return medium.scattering * light.intensity * sum * dx;
+    return finite(medium.scattering * light.intensity * (sum * dx));
 }
 
 fn march_spot(marched: Marched, beside: LightBesideRay, scattering: Phase, ray: Ray, way: f32) -> vec3<f32> {
@@ -106,7 +106,7 @@ fn march_spot(marched: Marched, beside: LightBesideRay, scattering: Phase, ray: 
         sum += f32(~hidden & 1u) * point.density * falloff * exp(-medium.extinction * point.path);
     }
     stopped = stopped || i < count;
-    return medium.scattering * light.intensity * sum * dx;
+    return finite(medium.scattering * light.intensity * (sum * dx));
 }
 
 // The irradiance of a directional light reaches every point unattenuated.
@@ -122,7 +122,8 @@ fn march_directional(marched: Marched, scattering: Phase, ray: Ray, way: f32) ->
         sum += f32(~hidden & 1u) * exp(-medium.extinction * ((f32(i) + 0.5) * dx));
     }
     stopped = stopped || i < count;
-    return medium.scattering * light.intensity * phase_at(scattering, w_toward_eye(light.direction + ray.direction)) * sum * dx;
+    let scattered = phase_at(scattering, w_toward_eye(light.direction + ray.direction));
+    return finite(medium.scattering * light.intensity * (scattered * sum * dx));
 }
 
 struct Receiver {
@@ -145,7 +146,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = textureDimensions(radiance);
     let ray = ray_of_pixel(camera, id.xy, size);
     let least = max(least_extinction(medium), 1e-30);
-    let way = min(textureLoad(depth, id.xy, 0).x, MARCH_DEPTH / least);
+    let way = min(textureLoad(depth, id.xy, 0).x, min(MARCH_DEPTH / least, WAY_MAX));
     let tiles = tiles_of(lights.count, textureDimensions(shadow_map).x);
     let sum = received_of_all(Receiver(ray, way, phase, tiles));
     if all(id.xy < size) {

@@ -7,6 +7,8 @@ mod architecture;
 mod broken_plugins;
 mod codes;
 mod conformance;
+mod elsewhere;
+mod extremes;
 mod folders;
 mod image_coverage;
 mod kept;

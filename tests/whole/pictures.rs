@@ -17,7 +17,7 @@ fn camera(position: DVec3, look_at: DVec3) -> Camera {
     let right = forward.cross(DVec3::Y).normalize();
     let half = (VERTICAL_FOV.to_radians() / 2.0).tan();
     let aspect = f64::from(SIZE[0]) / f64::from(SIZE[1]);
-    Camera { position, right: right * half * aspect, up: right.cross(forward) * half, forward }
+    Camera { position, nearest: 1e-6, right: right * half * aspect, up: right.cross(forward) * half, forward }
 }
 
 fn medium(phase: Phase) -> Medium {

@@ -98,7 +98,7 @@ fn truth() -> Vec<([u32; 2], DVec3)> {
     let half = 25_f64.to_radians().tan();
     let forward = (target - position).normalize();
     let right = DVec3::X * half * f64::from(SIZE[0]) / f64::from(SIZE[1]);
-    let camera = Camera { position, right, up: DVec3::Y * half, forward };
+    let camera = Camera { position, nearest: 1e-6, right, up: DVec3::Y * half, forward };
     let medium = Medium {
         extinction: DVec3::new(0.08, 0.1, 0.13),
         albedo: DVec3::splat(0.9),

@@ -22,7 +22,7 @@ pub(crate) fn core_data() -> Vec<SceneData> {
         SceneData::record("medium", &[Part::Medium], |at| layout::Medium::from(medium(at.scene))),
         SceneData::record("phase", &[Part::Medium], |at| layout::Phase::from(&medium(at.scene).phase)),
         SceneData::bytes(("phase_table", Shape::Bytes), &[Part::Medium], |at| phase_table(&medium(at.scene).phase)),
-        SceneData::record("height_fog", &[Part::Medium], |at| height_fog(&at.scene.height_fog)),
+        SceneData::record("height_fog", &[Part::Medium], |at| height_fog(&at.scene.height_fog_from_origin())),
         SceneData::record("ambient", &[Part::Medium], |at| layout::Ambient {
             radiance: floats(at.scene.ambient),
             ..Default::default()
@@ -53,6 +53,7 @@ fn camera(view: &View, aspect: f64) -> layout::Camera {
     let tangent = (view.vertical_fov / 2.0).tan();
     layout::Camera {
         position: floats(view.position),
+        nearest: view.nearest as f32,
         right: floats(view.right * tangent * aspect),
         up: floats(view.up * tangent),
         forward: floats(view.forward),

@@ -1,4 +1,4 @@
-//! A scene at one time, in world space and double precision.
+//! A scene at one time, in double precision.
 
 use glam::{DAffine3, DVec3};
 
@@ -21,6 +21,8 @@ pub struct Frame {
 pub struct View {
     /// Metres.
     pub position: DVec3,
+    /// Metres along the view axis; closer than this nothing is drawn.
+    pub nearest: f64,
     /// Unit vector to the right of the image.
     pub right: DVec3,
     /// Unit vector to the top of the image.
@@ -69,6 +71,7 @@ impl Bounds {
 }
 
 impl Frame {
+    /// In world space.
     pub(crate) fn of(scene: &Scene, time: f64) -> Frame {
         let objects: Vec<Placed> = scene.objects.iter().map(|object| Placed::of(object, time)).collect();
         let transforms = scene.instances.iter().map(|i| match i.node {
@@ -85,6 +88,23 @@ impl Frame {
             FrameLight { kind: light.kind, position, direction, intensity, radius: light.radius }
         });
         Frame { camera: view(scene, &objects, time), lights: lights.collect(), transforms: transforms.collect() }
+    }
+
+    /// From the eye to the closest light or object that does not stand right there, m: how fine positions matter.
+    pub(crate) fn nearest_distance(&self) -> f64 {
+        let lights =
+            self.lights.iter().filter(|light| light.kind != LightKind::Directional).map(|light| light.position);
+        let places = lights.chain(self.transforms.iter().map(|transform| transform.translation));
+        let distances = places.map(|place| place.distance(self.camera.position));
+        distances.filter(|&distance| distance > 0.0).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The same as seen from another origin, world, m.
+    pub(crate) fn seen_from(mut self, origin: DVec3) -> Frame {
+        self.camera.position -= origin;
+        self.lights.iter_mut().for_each(|light| light.position -= origin);
+        self.transforms.iter_mut().for_each(|transform| transform.translation -= origin);
+        self
     }
 }
 
@@ -131,5 +151,5 @@ fn view(scene: &Scene, objects: &[Placed], time: f64) -> View {
     let forward = forward.try_normalize().unwrap_or(DVec3::NEG_Z);
     let right = forward.cross(up.normalize_or(DVec3::Y)).try_normalize();
     let right = right.unwrap_or_else(|| forward.any_orthonormal_vector());
-    View { position, right, up: right.cross(forward), forward, vertical_fov }
+    View { position, nearest: scene.nearest, right, up: right.cross(forward), forward, vertical_fov }
 }

@@ -16,7 +16,7 @@
 //! let (scene, warnings) = Scene::load(path, &Overrides::new(), &extensions)?;
 //! let mut encoded = scene.encode(0.0, 16.0 / 9.0);
 //! for (name, bytes) in &encoded.items { /* upload */ }
-//! let changed = encoded.update(&scene, 1.0 / 24.0, 16.0 / 9.0); // a subset of `scene.animated()`
+//! let changed = encoded.update(&scene, 1.0 / 24.0, 16.0 / 9.0); // a subset of `scene.animated_place()`
 //! # Ok(()) }
 //! ```
 //!

@@ -15,12 +15,12 @@ pub struct Moment<'a> {
     pub time: f64,
     /// Width over height of the picture.
     pub aspect: f64,
-    /// What depends on the time, in world space.
+    /// What depends on the time, from the scene's origin.
     pub frame: Frame,
 }
 
 impl Moment<'_> {
-    /// The vertices of all instances one after another, world, m, rounded to single precision as passes read them.
+    /// The vertices of all instances one after another, from the scene's origin, m, rounded to single precision as passes read them.
     pub fn positions(&self) -> impl Iterator<Item = DVec3> {
         let instances = self.scene.instances.iter().zip(&self.frame.transforms);
         instances.flat_map(|(instance, transform)| {
@@ -35,7 +35,7 @@ impl Moment<'_> {
         world_triangles(self.scene, &self.frame)
     }
 
-    /// The triangles of all objects that cast shadows, world, m.
+    /// The triangles of all objects that cast shadows, from the scene's origin, m.
     pub fn casters(&self) -> Vec<Caster> {
         self.scene.casters(&self.frame)
     }

@@ -12,12 +12,14 @@ use crate::codes::{MISSING_CAMERA, NAMED_MATERIALS, SCENE_TOO_LARGE, UNKNOWN_SUF
 use crate::decode::{CameraDraft, Draft, MediumDraft, MeshDraft, NamedMaterial, ObjectDraft};
 use crate::extensions::Extensions;
 use crate::field::{Fields, MediumFields};
+use crate::frame::Frame;
 use crate::gltf::{self, MOST_ELEMENTS, Model};
 use crate::mesh::Mesh;
 use crate::model::{Camera, Instance, Light, Material, Medium, Object, Placement};
 use crate::overrides::Merged;
 use crate::phase_file;
 use crate::primitives::Primitive;
+use crate::read::FARTHEST;
 use crate::scene::Scene;
 use tyndall_shaders::scene::Phase;
 
@@ -66,12 +68,15 @@ pub(crate) fn scene(
     }
     scene.background = draft.background;
     scene.lights = draft.lights.unwrap_or_else(|| lights(&models));
+    let spans: Vec<Span> = draft.objects.iter().map(|object| object.span).collect();
     let mut shared = Shared::default();
     for (object, model) in draft.objects.into_iter().zip(&models) {
         unknown_names(&object.materials, model.as_deref(), merged, out);
         add(&mut scene, object, model.as_deref(), &mut shared);
     }
-    within_limits(&scene, merged, whole, out).then_some(scene)
+    scene.choose_origin();
+    let fits = within_limits(&scene, merged, whole, out) && within_reach(&scene, merged, &spans, out);
+    fits.then_some(scene)
 }
 
 impl Files<'_> {
@@ -184,7 +189,7 @@ impl Shared {
 
 fn add(scene: &mut Scene, draft: ObjectDraft, model: Option<&Model>, shared: &mut Shared) {
     let object = scene.objects.len();
-    let ObjectDraft { mesh, translation, rotation, scale, material, materials, casts_shadow, fields } = draft;
+    let ObjectDraft { mesh, translation, rotation, scale, material, materials, casts_shadow, fields, .. } = draft;
     let nodes = model.map(|m| Arc::clone(&m.nodes)).unwrap_or_default();
     scene.objects.push(Object { translation, rotation, scale, nodes, fields });
     let own = material.map(|material| push(&mut scene.materials, material));
@@ -260,4 +265,20 @@ fn within_limits(scene: &Scene, merged: &Merged, whole: Span, out: &mut Diagnost
         }
     }
     fits
+}
+
+/// A transform takes no object out of the range that numbers of a scene file have.
+fn within_reach(scene: &Scene, merged: &Merged, spans: &[Span], out: &mut Diagnostics) -> bool {
+    let mut reaches = vec![0.0_f64; spans.len()];
+    for (instance, transform) in scene.instances.iter().zip(Frame::of(scene, 0.0).transforms) {
+        let places = instance.mesh.positions.iter().map(|p| transform.transform_point3(p.as_dvec3()));
+        let reach = places.map(|place| place.abs().max_element()).fold(0.0, f64::max);
+        reaches[instance.object] = reaches[instance.object].max(reach);
+    }
+    let beyond: Vec<_> = reaches.iter().zip(spans).filter(|(reach, _)| **reach > FARTHEST).collect();
+    for (reach, span) in &beyond {
+        let message = format!("the object reaches {reach:e} m from the origin; it must be at most {FARTHEST:e}");
+        out.push(Diagnostic::error(SCENE_TOO_LARGE, merged.source.place(**span), message));
+    }
+    beyond.is_empty()
 }

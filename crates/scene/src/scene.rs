@@ -19,6 +19,16 @@ use crate::resolve;
 use crate::scene_data::SceneData;
 use tyndall_shaders::scene::HeightFog;
 
+/// A camera no farther from the world's origin than this, m, sees pictures that single precision errs in by less than 1e-4,
+/// unless what it sees is small.
+const NEAR_ORIGIN: f64 = 2048.0;
+
+/// The same in multiples of the distance to what it sees.
+const NEAR_ORIGIN_FOR_SIZE: f64 = 256.0;
+
+/// Metres; closer than this nothing is drawn, unless what is seen is smaller than a hundredth of a metre.
+const NEAREST: f64 = 1e-6;
+
 /// Everything that a scene file and the files named in it say, checked and ready to be encoded for any time.
 #[derive(Clone, Debug)]
 pub struct Scene {
@@ -42,6 +52,10 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// To which the materials refer.
     pub textures: Vec<Texture>,
+    /// Where everything that a shader sees begins, world, m: see [`Scene::at`].
+    pub(crate) origin: DVec3,
+    /// Metres along the view axis; closer than this nothing is drawn.
+    pub(crate) nearest: f64,
     /// Sections that plugins bring.
     pub fields: Fields,
     /// Fields of the medium that plugins bring.
@@ -107,6 +121,8 @@ impl Scene {
             instances: Vec::new(),
             materials: Vec::new(),
             textures: Vec::new(),
+            origin: DVec3::ZERO,
+            nearest: NEAREST,
             fields: Fields::default(),
             medium_fields: MediumFields::default(),
             files,
@@ -139,9 +155,28 @@ impl Scene {
         &self.extensions
     }
 
-    /// Everything that depends on the time, in world space.
+    /// Everything that depends on the time, from the scene's origin.
+    ///
+    /// Shaders have single precision, which at 1,000 km from the world's origin tells places 6 cm apart. So where the camera
+    /// stands far out at time 0, everything is told from there: it is subtracted here in double precision, before
+    /// anything is rounded. A camera that travels loses 6e-8 of its way from there.
     pub fn at(&self, time: f64) -> Frame {
-        Frame::of(self, time)
+        Frame::of(self, time).seen_from(self.origin)
+    }
+
+    /// The height of the world's origin is not that of the scene's.
+    pub(crate) fn height_fog_from_origin(&self) -> HeightFog {
+        HeightFog { base_height: self.height_fog.base_height - self.origin.y, ..self.height_fog }
+    }
+
+    /// Chooses the origin by where the camera stands at time 0: near the world's origin that one; and how close to the eye
+    /// something can be seen.
+    pub(crate) fn choose_origin(&mut self) {
+        let frame = Frame::of(self, 0.0);
+        let (eye, way) = (frame.camera.position, frame.camera.position.length());
+        let far = way > NEAR_ORIGIN.min(NEAR_ORIGIN_FOR_SIZE * frame.nearest_distance());
+        self.origin = if far { eye } else { DVec3::ZERO };
+        self.nearest = NEAREST * (100.0 * frame.nearest_distance()).min(1.0);
     }
 
     /// The names of scene data that differ between some two times. All others are the same in every frame.
@@ -161,7 +196,7 @@ impl Scene {
 
     /// World-space box of all vertices at a time; `None` where there are none.
     pub fn bounds(&self, time: f64) -> Option<Bounds> {
-        let frame = self.at(time);
+        let frame = Frame::of(self, time);
         let corners = self.instances.iter().zip(&frame.transforms);
         let points = corners.flat_map(|(i, t)| i.mesh.positions.iter().map(|p| t.transform_point3(p.as_dvec3())));
         points.fold(None, |bounds: Option<Bounds>, p| Some(bounds.map_or(Bounds::point(p), |b| b.with(p))))

@@ -20,7 +20,7 @@ impl Scene {
                 albedo: DVec3::ONE,
                 phase: twin::Phase::Isotropic,
             }),
-            height_fog: self.height_fog,
+            height_fog: self.height_fog_from_origin(),
             ambient: self.ambient,
             background: self.background,
             lights: frame.lights.iter().map(light).collect(),
@@ -29,7 +29,7 @@ impl Scene {
         }
     }
 
-    /// The triangles of all objects that cast shadows, in world space.
+    /// The triangles of all objects that cast shadows, from the scene's origin.
     pub(crate) fn casters(&self, frame: &Frame) -> Vec<twin::Caster> {
         let instances = self.instances.iter().zip(&frame.transforms).filter(|(instance, _)| instance.casts_shadow);
         let triangles = instances.flat_map(|(instance, transform)| {
@@ -99,7 +99,7 @@ fn texture(texture: &Texture) -> twin::Texture {
 fn camera(view: &View, aspect: f64) -> twin::Camera {
     let tangent = (view.vertical_fov / 2.0).tan();
     let (right, up) = (view.right * tangent * aspect, view.up * tangent);
-    twin::Camera { position: view.position, right, up, forward: view.forward }
+    twin::Camera { position: view.position, nearest: view.nearest, right, up, forward: view.forward }
 }
 
 fn light(light: &FrameLight) -> twin::Light {

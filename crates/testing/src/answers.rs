@@ -127,7 +127,8 @@ mod tests {
     use super::*;
 
     fn scene(phase: Phase) -> Scene {
-        let camera = Camera { position: DVec3::ZERO, right: DVec3::X, up: DVec3::Y, forward: DVec3::NEG_Z };
+        let camera =
+            Camera { position: DVec3::ZERO, nearest: 1e-6, right: DVec3::X, up: DVec3::Y, forward: DVec3::NEG_Z };
         Scene {
             camera,
             medium: Medium { extinction: DVec3::ONE, albedo: DVec3::ONE, phase },

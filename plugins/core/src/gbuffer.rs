@@ -59,7 +59,7 @@ fn descriptor() -> PassDescriptor {
             ),
             output(
                 "raster_depth",
-                "The rasteriser's depth buffer: 1e-6 m over the distance along the view axis, 0 at infinity",
+                "The rasteriser's depth buffer: 1e-6 m, less in scenes smaller than 1 cm, over the distance along the view axis, 0 at infinity",
                 "",
                 (Dimension::D2, Class::RasterDepth, Format::Depth32Float),
                 [0.0; 4],

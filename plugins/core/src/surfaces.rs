@@ -13,9 +13,6 @@ use tyndall_shaders::colour::linear_from_srgb;
 use tyndall_shaders::ray::Ray;
 use tyndall_shaders::scene::{Camera, Filter, Material, Surfaces, Texture, Triangle, Wrap};
 
-/// Depth buffer times distance along the view axis, m.
-const RASTER_DEPTH: f64 = 1e-6;
-
 /// Every port of `core.gbuffer`.
 pub(crate) fn gbuffer(input: &ReferenceInput<'_>) -> Outputs {
     let (camera, surfaces, size) = (&input.scene()?.camera, input.surfaces()?, input.size("depth")?);
@@ -23,7 +20,7 @@ pub(crate) fn gbuffer(input: &ReferenceInput<'_>) -> Outputs {
     let pixels = input.pixels("depth", |Pixel { at, ray, .. }| {
         let hit = nearest(&surfaces.triangles, &places, *at, ray);
         let along_axis = |hit: &Hit| hit.way * ray.direction.dot(camera.forward);
-        let raster_depth = hit.as_ref().map_or(0.0, |hit| RASTER_DEPTH / along_axis(hit));
+        let raster_depth = hit.as_ref().map_or(0.0, |hit| camera.nearest / along_axis(hit));
         (seen(surfaces, ray, hit.as_ref()), raster_depth, hit)
     })?;
     let hits = || pixels.iter().map(|(.., hit)| hit.as_ref());
@@ -67,7 +64,7 @@ fn nearest(triangles: &[Triangle], places: &[[Range<u32>; 2]], [x, y]: [u32; 2],
 /// Columns and rows in which a triangle can be seen, and one more on each side; all where it reaches behind the eye.
 fn pixels_around(triangle: &Triangle, camera: &Camera, size: [u32; 2]) -> [Range<u32>; 2] {
     let corners = triangle.corners.map(|corner| corner.position - camera.position);
-    if corners.iter().any(|corner| corner.dot(camera.forward) < 1e-6) {
+    if corners.iter().any(|corner| corner.dot(camera.forward) < camera.nearest) {
         return size.map(|size| 0..size);
     }
     let place = |corner: DVec3, axis: DVec3| corner.dot(axis) / axis.length_squared() / corner.dot(camera.forward);

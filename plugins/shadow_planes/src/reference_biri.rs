@@ -7,8 +7,8 @@ use tyndall_plugin::{Outputs, Pixel, ReferenceInput, rgba};
 use tyndall_shaders::airlight::airlight;
 use tyndall_shaders::lights::lit_bit;
 use tyndall_shaders::ray::Ray;
-use tyndall_shaders::scene::{Caster, Light};
-use tyndall_shaders::shadows::{Source, edge_touches, facing};
+use tyndall_shaders::scene::{Camera, Caster, Light};
+use tyndall_shaders::shadows::{Source, UNSEEN, edge_touches, facing};
 
 /// What eight bits hold.
 const STENCIL_MAX: i32 = 255;
@@ -34,8 +34,8 @@ struct Crossed {
 /// Airlight by the planes, drawn in their order with a stencil or without.
 pub(crate) fn biri(input: &ReferenceInput<'_>) -> Outputs {
     let (scene, stencil) = (input.scene()?, input.is_on("stencil"));
-    let eye = scene.camera.position;
-    let planes: Vec<Vec<Plane>> = scene.lights.iter().map(|light| silhouette(light, &scene.casters, eye)).collect();
+    let planes: Vec<Vec<Plane>> =
+        scene.lights.iter().map(|light| silhouette(light, &scene.casters, &scene.camera)).collect();
     let pixels = input.pixels("radiance", |Pixel { ray, distance, .. }| {
         let (mut sum, mut bits) = (DVec3::ZERO, [0_u32; 4]);
         for (index, (light, planes)) in scene.lights.iter().zip(&planes).enumerate() {
@@ -106,7 +106,7 @@ fn crossed(light: &Light, planes: &[Plane], ray: &Ray, way: f64) -> Vec<Crossed>
 
 /// The edges with more triangles on one side than on the other, but for those that pass through the eye. Corners at one
 /// position are one vertex.
-fn silhouette(light: &Light, casters: &[Caster], eye: DVec3) -> Vec<Plane> {
+fn silhouette(light: &Light, casters: &[Caster], camera: &Camera) -> Vec<Plane> {
     let mut edges: BTreeMap<[[u64; 3]; 2], Plane> = BTreeMap::new();
     for triangle in casters {
         let facing = i32::from(facing(Source::of(light), triangle));
@@ -119,5 +119,10 @@ fn silhouette(light: &Light, casters: &[Caster], eye: DVec3) -> Vec<Plane> {
             plane.excess += if forward { facing } else { -facing };
         }
     }
-    edges.into_values().filter(|plane| plane.excess != 0 && !edge_touches(eye, [plane.a, plane.b])).collect()
+    edges
+        .into_values()
+        .filter(|plane| {
+            plane.excess != 0 && !edge_touches(camera.position, UNSEEN * camera.nearest, [plane.a, plane.b])
+        })
+        .collect()
 }

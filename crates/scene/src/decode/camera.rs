@@ -6,7 +6,7 @@ use tyndall_document::{Code, Decoder, Diagnostic, Node};
 use crate::animate::{Animated, least_length};
 use crate::codes::{CAMERA_ON_TARGET, UP_ALONG_VIEW};
 use crate::model::Camera;
-use crate::read::{Range, animated, direction, number};
+use crate::read::{Range, animated_place, direction, number};
 
 /// Below this sine of the angle between them, `up` is parallel to the view.
 const PARALLEL: f64 = 1e-9;
@@ -31,8 +31,8 @@ pub(super) fn camera(decoder: &mut Decoder, node: &Node) -> Option<CameraDraft> 
     }
     let position_node = fields.required(decoder, "position");
     let look_at_node = fields.required(decoder, "look_at");
-    let position = position_node.and_then(|n| animated(decoder, n, "position"));
-    let look_at = look_at_node.and_then(|n| animated(decoder, n, "look_at"));
+    let position = position_node.and_then(|n| animated_place(decoder, n, "position"));
+    let look_at = look_at_node.and_then(|n| animated_place(decoder, n, "look_at"));
     let up_node = fields.get("up");
     let up = match up_node {
         Some(node) => direction(decoder, node, "up"),

@@ -7,7 +7,9 @@ use super::{given, variant};
 use crate::animate::Animated;
 use crate::field::Holder;
 use crate::model::{Light, LightKind, Placement};
-use crate::read::{Range, SceneReader, animated, animated_direction, animated_power, number, vector};
+use crate::read::{
+    FARTHEST, POWER, Range, SceneReader, animated_direction, animated_place, animated_power, number, vector,
+};
 
 pub(super) const POINT_FIELDS: &[&str] = &["position", "intensity", "radius"];
 pub(super) const SPOT_FIELDS: &[&str] = &["position", "direction", "intensity", "exponent", "cutoff", "radius"];
@@ -25,7 +27,7 @@ fn light(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Light> {
 
 fn point(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Light> {
     let (fields, own) = decoder.fields_of(Holder::Light, node, "a Point", POINT_FIELDS)?;
-    let position = needed(decoder, &fields, "position", animated);
+    let position = needed(decoder, &fields, "position", animated_place);
     let intensity = needed(decoder, &fields, "intensity", animated_power);
     let radius = radius(decoder, &fields);
     let direction = Animated::Constant(DVec3::NEG_Y);
@@ -35,7 +37,7 @@ fn point(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Light> {
 
 fn spot(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Light> {
     let (fields, own) = decoder.fields_of(Holder::Light, node, "a Spot", SPOT_FIELDS)?;
-    let position = needed(decoder, &fields, "position", animated);
+    let position = needed(decoder, &fields, "position", animated_place);
     let direction = needed(decoder, &fields, "direction", animated_direction);
     let intensity = needed(decoder, &fields, "intensity", animated_power);
     let exponent = given(fields.get("exponent"), 0.0, |n| number(decoder, n, "exponent", Range::NotNegative));
@@ -49,9 +51,8 @@ fn spot(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Light> {
 fn directional(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Light> {
     let (fields, own) = decoder.fields_of(Holder::Light, node, "a Directional", DIRECTIONAL_FIELDS)?;
     let direction = needed(decoder, &fields, "direction", animated_direction);
-    let irradiance = needed(decoder, &fields, "irradiance", |d, n, name| {
-        vector(d, n, name, Range::NotNegative).map(Animated::Constant)
-    });
+    let irradiance =
+        needed(decoder, &fields, "irradiance", |d, n, name| vector(d, n, name, POWER).map(Animated::Constant));
     let radius = radius(decoder, &fields);
     let placement = Placement::World { position: Animated::Constant(DVec3::ZERO), direction: direction? };
     Some(Light { kind: LightKind::Directional, intensity: irradiance?, radius: radius?, placement, fields: own? })
@@ -68,5 +69,5 @@ fn needed(
 }
 
 fn radius(decoder: &mut Decoder, fields: &Fields) -> Option<f64> {
-    given(fields.get("radius"), 0.0, |n| number(decoder, n, "radius", Range::NotNegative))
+    given(fields.get("radius"), 0.0, |n| number(decoder, n, "radius", Range::NotAbove(FARTHEST)))
 }

@@ -8,7 +8,7 @@ use tyndall_shaders::scene::{HeightFog, Phase};
 use super::{given, parts_of, path};
 use crate::field::{Fields as PluginFields, Holder};
 use crate::model::Medium;
-use crate::read::{Range, SceneReader, number, vector};
+use crate::read::{COORDINATE, EXTINCTION, LENGTH, POWER, Range, SceneReader, number, vector};
 
 pub(super) const FIELDS: &[&str] =
     &["extinction", "albedo", "phase", "scale_height", "base_height", "ambient", "emission"];
@@ -34,10 +34,10 @@ pub(super) fn medium(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Mediu
     let mut colour = |name: &str, default: DVec3, range: Range| {
         given(fields.get(name), default, |n| vector(decoder, n, name, range))
     };
-    let extinction = colour("extinction", DVec3::ZERO, Range::NotAbove(1e30));
+    let extinction = colour("extinction", DVec3::ZERO, EXTINCTION);
     let albedo = colour("albedo", DVec3::ONE, Range::Unit);
-    let ambient = colour("ambient", DVec3::ZERO, Range::NotNegative);
-    let emission = colour("emission", DVec3::ZERO, Range::NotNegative);
+    let ambient = colour("ambient", DVec3::ZERO, POWER);
+    let emission = colour("emission", DVec3::ZERO, POWER);
     let phase = given(fields.get("phase"), PhaseDraft::Known(Phase::Isotropic), |n| phase(decoder, n));
     let height_fog = height_fog(decoder, &fields);
     let (phase, phase_file) = match phase? {
@@ -51,7 +51,7 @@ pub(super) fn medium(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Mediu
 
 fn height_fog(decoder: &mut Decoder, fields: &Fields) -> Option<HeightFog> {
     let base = fields.get("base_height");
-    let base_height = given(base, 0.0, |n| number(decoder, n, "base_height", Range::Any));
+    let base_height = given(base, 0.0, |n| number(decoder, n, "base_height", COORDINATE));
     let Some(node) = fields.get("scale_height") else {
         let Some(base) = base else { return Some(HeightFog::NONE) };
         let message = "`base_height` says where the medium has its own extinction, and no `scale_height` how it falls";
@@ -59,7 +59,7 @@ fn height_fog(decoder: &mut Decoder, fields: &Fields) -> Option<HeightFog> {
         decoder.report(mistake.suggest("add `scale_height: …`, metres, or leave `base_height` out"));
         return None;
     };
-    let scale_height = number(decoder, node, "scale_height", Range::Positive)?;
+    let scale_height = number(decoder, node, "scale_height", LENGTH)?;
     Some(HeightFog { base_height: base_height?, falloff: 1.0 / scale_height })
 }
 

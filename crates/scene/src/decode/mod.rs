@@ -15,7 +15,7 @@ pub(crate) use self::medium::MediumDraft;
 pub(crate) use self::objects::{MeshDraft, NamedMaterial, ObjectDraft};
 use crate::field::{Fields, Holder};
 use crate::model::Light;
-use crate::read::{Range, SceneReader, vector};
+use crate::read::{POWER, SceneReader, vector};
 
 /// What a scene file says, before the files that it names are read.
 #[derive(Debug)]
@@ -53,8 +53,7 @@ pub(crate) fn scene(mut reader: SceneReader<'_>, root: &Node) -> Option<Draft> {
     let none = CameraDraft::Model { vertical_fov: None };
     let camera = given(fields.get("camera"), none, |n| camera::camera(decoder, n));
     let medium = given(fields.get("medium"), None, |n| medium::medium(decoder, n).map(Some));
-    let background =
-        given(fields.get("background"), DVec3::ZERO, |n| vector(decoder, n, "background", Range::NotNegative));
+    let background = given(fields.get("background"), DVec3::ZERO, |n| vector(decoder, n, "background", POWER));
     let lights = given(fields.get("lights"), None, |n| lights::lights(decoder, n).map(Some));
     let objects = given(fields.get("objects"), Vec::new(), |n| objects::objects(decoder, n));
     let (camera, medium, background) = (camera?, medium?, background?);

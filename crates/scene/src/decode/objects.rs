@@ -9,7 +9,7 @@ use crate::codes::{BRIGHTER_THAN_WHITE, NAMED_MATERIALS};
 use crate::field::{Fields as PluginFields, Holder};
 use crate::model::Material;
 use crate::primitives::Primitive;
-use crate::read::{Range, SceneReader, animated, direction, number, numbers, vector};
+use crate::read::{LENGTH, Range, SceneReader, animated_place, direction, number, numbers, vector};
 
 pub(super) const OBJECT_FIELDS: &[&str] =
     &["mesh", "translation", "rotation", "scale", "material", "materials", "casts_shadow"];
@@ -18,6 +18,7 @@ pub(super) const MATERIAL_FIELDS: &[&str] = &["diffuse", "specular", "shininess"
 /// What a scene file says of an object.
 #[derive(Debug)]
 pub(crate) struct ObjectDraft {
+    pub span: Span,
     pub mesh: MeshDraft,
     pub translation: Animated,
     pub rotation: DQuat,
@@ -58,14 +59,16 @@ pub(super) fn objects(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Vec<
 fn object(decoder: &mut SceneReader<'_>, node: &Node) -> Option<ObjectDraft> {
     let (fields, own) = decoder.fields_of(Holder::Object, node, "an object", OBJECT_FIELDS)?;
     let mesh = fields.required(decoder, "mesh").and_then(|n| mesh(decoder, n));
-    let translation =
-        given(fields.get("translation"), Animated::Constant(DVec3::ZERO), |n| animated(decoder, n, "translation"));
+    let translation = given(fields.get("translation"), Animated::Constant(DVec3::ZERO), |n| {
+        animated_place(decoder, n, "translation")
+    });
     let rotation = given(fields.get("rotation"), DQuat::IDENTITY, |n| rotation(decoder, n));
     let scale = given(fields.get("scale"), DVec3::ONE, |n| scale(decoder, n));
     let material = given(fields.get("material"), None, |n| material(decoder, n).map(Some));
     let materials = given(fields.get("materials"), Vec::new(), |n| materials(decoder, n, &fields));
     let casts_shadow = given(fields.get("casts_shadow"), true, |n| decoder.bool(n));
     Some(ObjectDraft {
+        span: node.span,
         mesh: mesh?,
         translation: translation?,
         rotation: rotation?,
@@ -99,7 +102,7 @@ fn material(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Material> {
     let diffuse = color("diffuse", default.diffuse);
     let specular = color("specular", default.specular);
     let shininess =
-        given(fields.get("shininess"), default.shininess, |n| number(decoder, n, "shininess", Range::NotNegative));
+        given(fields.get("shininess"), default.shininess, |n| number(decoder, n, "shininess", Range::NotAbove(1e6)));
     if let (Some(diffuse), Some(node)) = (diffuse, fields.get("diffuse"))
         && diffuse.max_element() > 1.0
     {
@@ -176,12 +179,12 @@ fn file(decoder: &mut SceneReader<'_>, node: &Node) -> Option<MeshDraft> {
 /// A length of a primitive.
 fn measure(decoder: &mut Decoder, fields: &Fields, name: &str) -> Option<f64> {
     let node = fields.required(decoder, name)?;
-    number(decoder, node, name, Range::Positive)
+    number(decoder, node, name, LENGTH)
 }
 
 /// The edge lengths of a primitive.
 fn size<const N: usize>(decoder: &mut Decoder, node: &Node, what: &str) -> Option<[f64; N]> {
     let fields = decoder.fields(node, what, &["size"])?;
     let node = fields.required(decoder, "size")?;
-    numbers(decoder, node, "size", Range::Positive)
+    numbers(decoder, node, "size", LENGTH)
 }

@@ -7,8 +7,8 @@ wgsl_struct! {
     pub struct Camera {
         /// m, world.
         pub position: [f32; 3],
-        /// 0.
-        pub padding: f32,
+        /// m; closer than this nothing is drawn.
+        pub nearest: f32,
         /// Unit vector times the tangent of half the horizontal field of view.
         pub right: [f32; 3],
         /// 0.

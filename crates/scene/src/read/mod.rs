@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use tyndall_document::{Decoder, Diagnostic, Diagnostics, MISSING_FILE, Node};
 
 pub use self::values::{
-    Range, animated, animated_direction, animated_number, animated_power, direction, keys, number, numbers, vector,
+    COORDINATE, EXTINCTION, FARTHEST, LENGTH, POWER, Range, animated_direction, animated_number, animated_place,
+    animated_power, direction, keys, number, numbers, vector,
 };
 use crate::extensions::Extensions;
 use crate::field::{Fields, Holder};

@@ -10,6 +10,22 @@ use crate::codes::{CONSTANT_ONLY, EMPTY_KEYS, UNSORTED_KEYS, ZERO_DIRECTION};
 /// A way between two directions that comes this near to 0, relative to their length, passes through it.
 const NO_LENGTH: f64 = 1e-9;
 
+/// Lengths and coordinates, m, are at most this: squares of it, and their products with what a pass has beside them, are still
+/// finite in single precision.
+pub const FARTHEST: f64 = 1e12;
+
+/// A coordinate, m.
+pub const COORDINATE: Range = Range::Within(-FARTHEST, FARTHEST);
+
+/// A length that is not 0, m.
+pub const LENGTH: Range = Range::UpTo(FARTHEST);
+
+/// Radiance, irradiance and intensity: what is made of them stays finite in single precision.
+pub const POWER: Range = Range::NotAbove(1e20);
+
+/// An extinction, 1/m: nothing is seen through a millionth of a millionth of a metre of more.
+pub const EXTINCTION: Range = Range::NotAbove(1e12);
+
 /// Which numbers are allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Range {
@@ -53,7 +69,7 @@ impl Range {
             Range::Unit => (0.0..=1.0).contains(&value),
             Range::Between(low, high) => value > low && value < high,
             Range::Within(low, high) => (low..=high).contains(&value),
-            Range::UpTo(high) => value > 0.0 && value <= high,
+            Range::UpTo(high) => value as f32 > 0.0 && value <= high,
             Range::NotAbove(high) => (0.0..=high).contains(&value),
         }
     }
@@ -66,12 +82,19 @@ impl Range {
             Range::NotZero => "be above or below 0".to_owned(),
             Range::Unit => "lie in 0..1".to_owned(),
             Range::Between(low, high) => format!("lie between {low} and {high}, both excluded"),
-            Range::Within(low, high) => format!("lie in {low}..{high}"),
-            Range::UpTo(high) => format!("be above 0 and at most {high}"),
+            Range::Within(low, high) => format!("lie in {}..{}", shown(low), shown(high)),
+            Range::UpTo(_) if value as f32 <= 0.0 => "be above 0".to_owned(),
+            Range::UpTo(high) => format!("be at most {}", shown(high)),
             Range::NotAbove(_) if value < 0.0 => "be 0 or more".to_owned(),
-            Range::NotAbove(high) => format!("be at most {high:e}"),
+            Range::NotAbove(high) => format!("be at most {}", shown(high)),
         }
     }
+}
+
+/// A number as people write it. Digits beyond 16 would be noise.
+fn shown(value: f64) -> String {
+    let extreme = value != 0.0 && !(1e-6..1e9).contains(&value.abs());
+    if extreme { format!("{value:e}") } else { value.to_string() }
 }
 
 /// A number of a range; `name` is the field's name for messages.
@@ -82,10 +105,7 @@ pub fn number(decoder: &mut Decoder, node: &Node, name: &str, range: Range) -> O
         return Some(value);
     }
     let must = if fits { range } else { Range::Any };
-    // Digits beyond 16 would be noise.
-    let extreme = value != 0.0 && !(1e-6..1e16).contains(&value.abs());
-    let shown = if extreme { format!("{value:e}") } else { value.to_string() };
-    let message = format!("`{name}` is {shown}; it must {}", must.text(value));
+    let message = format!("`{name}` is {}; it must {}", shown(value), must.text(value));
     decoder.report(Diagnostic::error(OUT_OF_RANGE, decoder.place(node.span), message));
     None
 }
@@ -123,14 +143,14 @@ pub fn direction(decoder: &mut Decoder, node: &Node, name: &str) -> Option<DVec3
     None
 }
 
-/// Any vector, or keys of such.
-pub fn animated(decoder: &mut Decoder, node: &Node, name: &str) -> Option<Animated> {
-    keys(decoder, node, name, |d, n, name| vector(d, n, name, Range::Any))
+/// A place, m, or keys of such.
+pub fn animated_place(decoder: &mut Decoder, node: &Node, name: &str) -> Option<Animated> {
+    keys(decoder, node, name, |d, n, name| vector(d, n, name, COORDINATE))
 }
 
 /// A vector without negative components, or keys of such.
 pub fn animated_power(decoder: &mut Decoder, node: &Node, name: &str) -> Option<Animated> {
-    keys(decoder, node, name, |d, n, name| vector(d, n, name, Range::NotNegative))
+    keys(decoder, node, name, |d, n, name| vector(d, n, name, POWER))
 }
 
 /// A vector that has a length at all times, or keys of such.

@@ -136,7 +136,13 @@ fn every_pixel_agrees_with_double_precision() {
     let forward = DVec3::new(0.0, 10.0, -100.0).normalize();
     let half = 30f64.to_radians().tan();
     let up = DVec3::X.cross(forward) * half;
-    let camera = Camera { position: DVec3::new(0.0, 100.0, 0.0), right: DVec3::X * half * 4.0 / 3.0, up, forward };
+    let camera = Camera {
+        position: DVec3::new(0.0, 100.0, 0.0),
+        nearest: 1e-6,
+        right: DVec3::X * half * 4.0 / 3.0,
+        up,
+        forward,
+    };
     let all: DVec3 = suns.iter().map(|(_, e)| *e).sum();
     let left: DVec3 = suns.iter().map(|(d, e)| *e * air.sunlight(d.normalize())).sum::<DVec3>() / all;
     let (mut skies, mut grounds) = (0, 0);

@@ -11,7 +11,7 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use tyndall_shaders::shadows::{UNSEEN, edge_touches, height_above};
+use tyndall_shaders::shadows::{edge_touches, height_above};
 
 use super::silhouette::SilhouetteEdge;
 use super::slices::{LightFrame, PlacedEdge, Turning};
@@ -21,21 +21,24 @@ use super::slices::{LightFrame, PlacedEdge, Turning};
 pub(crate) struct EdgesAtEye {
     /// By triangle: of its edges from its first vertex on those that pass through the eye.
     triangles: BTreeMap<usize, [bool; 3]>,
+    /// What is closer to the eye may not be seen, m.
+    unseen: f64,
 }
 
 impl EdgesAtEye {
-    pub(crate) fn of(eye: DVec3, positions: &[DVec3], triangles: &[[u32; 3]]) -> EdgesAtEye {
+    pub(crate) fn of(eye: DVec3, unseen: f64, positions: &[DVec3], triangles: &[[u32; 3]]) -> EdgesAtEye {
         let at_eye = |(number, triangle): (usize, &[u32; 3])| {
             let corners = triangle.map(|vertex| positions[vertex as usize]);
-            let touching = is_near(eye, corners).then(|| sides(corners).map(|side| edge_touches(eye, side)))?;
+            let touching =
+                is_near(eye, unseen, corners).then(|| sides(corners).map(|side| edge_touches(eye, unseen, side)))?;
             touching.contains(&true).then_some((number, touching))
         };
-        EdgesAtEye { triangles: triangles.iter().enumerate().filter_map(at_eye).collect() }
+        EdgesAtEye { triangles: triangles.iter().enumerate().filter_map(at_eye).collect(), unseen }
     }
 
-    /// Whether there is none.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.triangles.is_empty()
+    /// Whether this edge passes through the eye.
+    pub(crate) fn touches(&self, eye: DVec3, edge: [DVec3; 2]) -> bool {
+        !self.triangles.is_empty() && edge_touches(eye, self.unseen, edge)
     }
 
     fn of_triangle(&self, triangle: usize) -> [bool; 3] {
@@ -44,10 +47,10 @@ impl EdgesAtEye {
 }
 
 /// Whether an edge of a triangle may touch the eye: what is cheap to ask of all.
-fn is_near(eye: DVec3, [a, b, c]: [DVec3; 3]) -> bool {
+fn is_near(eye: DVec3, unseen: f64, [a, b, c]: [DVec3; 3]) -> bool {
     let (low, high) = (a.min(b).min(c), a.max(b).max(c));
     let largest = low.abs().max(high.abs()).max(eye.abs());
-    (low - eye).max(eye - high).max_element() <= UNSEEN + 1e-6 * largest.element_sum()
+    (low - eye).max(eye - high).max_element() <= unseen + 1e-6 * largest.element_sum()
 }
 
 fn sides<T: Copy>([a, b, c]: [T; 3]) -> [[T; 2]; 3] {
@@ -86,7 +89,7 @@ impl AtEye {
             }
             let corners = triangle.map(|vertex| positions[vertex as usize]);
             let plane = EyeAbovePlane::of(frame, corners, *facing);
-            if touches.contains(&true) || plane.touches() {
+            if touches.contains(&true) || plane.touches(edges.unseen) {
                 let sides = sides(*triangle).into_iter().zip(touches).filter(|(_, touches)| !touches);
                 let edges = sides.map(|(vertices, _)| SilhouetteEdge { vertices, excess: i32::from(*facing) });
                 let placed = edges.filter_map(|edge| PlacedEdge::of(&edge, places));
@@ -121,7 +124,7 @@ impl EyeAbovePlane {
     }
 
     /// The eye is in the plane, as near as that can be told, or so little before it that nothing of it is seen.
-    fn touches(&self) -> bool {
-        self.height >= -self.rounded && self.height <= self.rounded + UNSEEN
+    fn touches(&self, unseen: f64) -> bool {
+        self.height >= -self.rounded && self.height <= self.rounded + unseen
     }
 }

@@ -14,7 +14,7 @@ mod slices;
 mod spans;
 
 use glam::DVec3;
-use tyndall_shaders::shadows::{Source, edge_touches};
+use tyndall_shaders::shadows::{Source, UNSEEN};
 
 use self::eye::{AtEye, EdgesAtEye};
 use self::silhouette::{Casters, SilhouetteEdge};
@@ -65,7 +65,7 @@ impl Shadows {
         }
         let eye = frame.camera.position.as_vec3().as_dvec3();
         self.lights.truncate(frame.lights.len());
-        let edges_at_eye = EdgesAtEye::of(eye, &self.positions, &self.casters.triangles);
+        let edges_at_eye = EdgesAtEye::of(eye, UNSEEN * frame.camera.nearest, &self.positions, &self.casters.triangles);
         let mut lists = Lists::default();
         for (index, light) in frame.lights.iter().enumerate() {
             let source = source(light);
@@ -96,7 +96,7 @@ impl Shadows {
         let places: Vec<DVec3> = self.positions.iter().map(|position| frame.place(*position)).collect();
         let at_eye = AtEye::of(&frame, (&self.positions, &places), &self.casters.triangles, facing, edges_at_eye);
         let passes_eye = |edge: &SilhouetteEdge| {
-            !edges_at_eye.is_empty() && edge_touches(eye, edge.vertices.map(|vertex| self.positions[vertex as usize]))
+            edges_at_eye.touches(eye, edge.vertices.map(|vertex| self.positions[vertex as usize]))
         };
         let seen = silhouette.iter().filter(|edge| !passes_eye(edge));
         let placed = seen.filter_map(|edge| PlacedEdge::of(edge, &places));

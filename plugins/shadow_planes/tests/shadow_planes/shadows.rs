@@ -88,7 +88,8 @@ fn pair(desk: &Desk, text: &str) -> [Image; 2] {
         .map(|graph| desk.picture(&shipped(graph), "test.scene.ron", (49, 37), "airlight", &["scattered=false"]));
     let [shadowed, unshadowed] = &pictures;
     for (a, b) in shadowed.data.iter().zip(&unshadowed.data) {
-        assert!(a.is_finite() && *a >= 0.0 && a <= b, "{a} of {b} in {text}");
+        // a part of a ray is summed at other nodes than the whole, and sums of single precision are rounded
+        assert!(a.is_finite() && *a >= 0.0 && *a <= b * (1.0 + 4e-6), "{a} of {b} in {text}");
     }
     pictures
 }
