@@ -41,13 +41,12 @@ fn density_along(climb: Climb, x: f32) -> f32 {
     return exp(min(-climb.height - climb.rate * x, DENSITY_MAX));
 }
 
-// How far along the ray E grows to `effective` from where the density is `density`: at most WAY_MAX.
+// About how far along the ray E grows to `effective` from where the density is `density`: at most WAY_MAX. Pieces end there.
 fn way_of(climb: Climb, density: f32, effective: f32) -> f32 {
     let least = effective / max(density, 1e-30);
     let u = least * climb.rate;
-    let series = least * (1.0 + u * (0.5 + u * (1.0 / 3.0)));
-    let whole = select(WAY_MAX, -log(max(1.0 - u, 1e-30)) / select(climb.rate, 1.0, climb.rate == 0.0), u < 1.0);
-    return min(select(whole, series, abs(u) < 0.01), WAY_MAX);
+    let whole = select(WAY_MAX, -log(max(1.0 - u, 1e-30)) / climb.rate, u < 1.0);
+    return min(select(whole, least, abs(u) < 1e-3), WAY_MAX);
 }
 
 struct Integrand {
@@ -158,7 +157,7 @@ fn sunlit(light: Light, medium: Medium, fog: HeightFog, ray: Ray, way: f32, atte
     let slope = 1.0 - ray.direction.y / sine;
     let growth = medium.extinction * slope * min(effective, ENDLESS);
     let series = medium.scattering * min(effective, ENDLESS) * exp(-near) * (1.0 - growth * (0.5 - growth / 6.0));
-    let steep = albedo(medium) * (exp(-near) - exp(-far)) / select(slope, 1.0, slope == 0.0);
+    let steep = albedo(medium) * (exp(-near) - exp(-far)) / slope;
     // by choices between values: software Vulkan (Mesa 22.3) crashes on an early return here
     return select(whole, select(steep, series, abs(growth) < vec3<f32>(0.01)), attenuated);
 }

@@ -45,11 +45,6 @@ fn incident_light(light: Light, position: vec3<f32>) -> IncidentLight {
     return IncidentLight(to_light, on_axis * falloff, on_axis, d);
 }
 
-// Surfaces are two-sided: the normal on the side that the ray sees.
-fn normal_toward_eye(normal: vec3<f32>, ray_direction: vec3<f32>) -> vec3<f32> {
-    return select(normal, -normal, dot(normal, ray_direction) > 0.0);
-}
-
 // The part of a light's irradiance that a surface sends to the eye: rho/pi n.l + k_s cos^n alpha, where n.l > 0, else 0
 // (Hong 2006, eq. 4.12, with the BRDF rho/pi). The Phong term has no cosine of incidence, as in the papers. `normal` is
 // turned to the eye; all vectors are unit vectors.

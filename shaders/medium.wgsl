@@ -51,17 +51,17 @@ fn effective_way(fog: HeightFog, height: f32, climb: f32, way: f32) -> f32 {
     let z = rate * x;
     let density = density_at(fog, height);
     let end = exp(min((fog.base_height - height) * fog.falloff - z, DENSITY_MAX));
-    // (1 - e^-z)/z by its series where z is small: the first term left out is 1e-8 of the sum
-    let series = density * x * (1.0 - z * (0.5 - z * (1.0 / 6.0 - z * (1.0 / 24.0 - z * (1.0 / 120.0)))));
-    let whole = (density - end) / select(rate, 1.0, rate == 0.0);
+    // (1 - e^-z)/z by its series where z is small: the first term left out is 8e-7 of the sum, as is what the difference loses
+    let series = density * x * (1.0 - z * (0.5 - z * (1.0 / 6.0 - z * (1.0 / 24.0))));
+    let whole = (density - end) / rate;
     // the density is nowhere less than at both ends, also where both are more than f32 can tell apart
     return max(select(whole, series, abs(z) < 0.1), min(density, end) * x);
 }
 
 // Mean density along a straight way, from the densities at its ends; z is the logarithm of their ratio.
 fn mean_density(start: f32, end: f32, z: f32) -> f32 {
-    let series = start * (1.0 - z * (0.5 - z * (1.0 / 6.0 - z * (1.0 / 24.0 - z * (1.0 / 120.0)))));
-    return max(select((start - end) / select(z, 1.0, z == 0.0), series, abs(z) < 0.1), min(start, end));
+    let series = start * (1.0 - z * (0.5 - z * (1.0 / 6.0 - z * (1.0 / 24.0))));
+    return max(select((start - end) / z, series, abs(z) < 0.1), min(start, end));
 }
 
 // More than any extinction, 1/m.

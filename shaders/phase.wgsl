@@ -51,8 +51,8 @@ fn measured_phase(xi: f32) -> f32 {
 
 // The measured function, 1/sr, at w, of which 1 - w is `rest`: v = sqrt(w/(1 - w)).
 fn measured_phase_at(w: f32, rest: f32) -> f32 {
-    let forward = sqrt(sqrt(max(w, 0.0)));
-    let backward = sqrt(sqrt(max(rest, 0.0)));
+    let forward = sqrt(sqrt(abs(w)));
+    let backward = sqrt(sqrt(abs(rest)));
     return measured_phase(forward / (forward + backward));
 }
 

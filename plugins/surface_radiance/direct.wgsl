@@ -40,7 +40,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var sum = vec3<f32>(0.0);
     if way < ENDLESS {
         let ray = ray_of_pixel(camera, id.xy, size);
-        let toward_eye = normal_toward_eye(textureLoad(normal, id.xy, 0).xyz, ray.direction);
+        let toward_eye = textureLoad(normal, id.xy, 0).xyz;
         let receiver = Receiver(ray.origin + way * ray.direction, toward_eye, reflect(ray.direction, toward_eye),
             textureLoad(material, id.xy, 0, 0).xyz, textureLoad(material, id.xy, 1, 0));
         sum = received_of_all(receiver) * transmittance(medium, effective_way(height_fog, ray.origin.y, ray.direction.y, way));

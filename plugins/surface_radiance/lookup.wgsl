@@ -50,7 +50,7 @@ fn scattered_to_pixel(pixel: vec2<u32>) {
     var sum = vec3<f32>(0.0);
     if way < ENDLESS {
         let ray = ray_of_pixel(camera, pixel, size);
-        let toward_eye = normal_toward_eye(textureLoad(normal, pixel, 0).xyz, ray.direction);
+        let toward_eye = textureLoad(normal, pixel, 0).xyz;
         let diffuse = textureLoad(material, pixel, 0, 0).xyz;
         let phong = textureLoad(material, pixel, 1, 0);
         let receiver = Receiver(ray.origin + way * ray.direction, toward_eye, reflect(ray.direction, toward_eye),

@@ -35,7 +35,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = textureDimensions(radiance);
     let way = textureLoad(depth, id.xy, 0).x;
     let ray = ray_of_pixel(camera, id.xy, size);
-    let toward_eye = normal_toward_eye(textureLoad(normal, id.xy, 0).xyz, ray.direction);
+    let toward_eye = textureLoad(normal, id.xy, 0).xyz;
     let lambert = textureLoad(material, id.xy, 0, 0);
     let phong = textureLoad(material, id.xy, 1, 0);
     let phong_layer = shininess_layers.items[min(u32(lambert.w), shininess_layers.count - 1u)];

@@ -77,8 +77,7 @@ fn has_light(bits: [f64; 4], light: usize) -> bool {
     lit_bit(light).is_none_or(|(channel, bit)| bits[channel] as u32 & bit != 0)
 }
 
-fn surface(ray: &Ray, way: f64, outward: DVec3, diffuse: [f64; 4], phong: [f64; 4]) -> Surface {
-    let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
+fn surface(ray: &Ray, way: f64, normal: DVec3, diffuse: [f64; 4], phong: [f64; 4]) -> Surface {
     let mirrored = ray.direction - 2.0 * ray.direction.dot(normal) * normal;
     Surface { is_lit: true, position: ray.at(way), normal, mirrored, diffuse, phong }
 }
