@@ -40,9 +40,9 @@ fn series_weights(phase: Phase) -> vec4<f32> {
     return vec4<f32>(1.0, 3.0, 5.0, 7.0) * 0.07957747154594767 * phase.legendre;
 }
 
-// The narrower lobe's width; 1 for polynomials.
+// The narrower lobe's width; 1 for polynomials, and of a lobe that is not there.
 fn least_width(phase: Phase) -> f32 {
-    return min(phase.lobes[0].rho, select(1.0, phase.lobes[1].rho, phase.lobe_count > 1u));
+    return min(phase.lobes[0].rho, phase.lobes[1].rho);
 }
 
 // Nodes of the integral of f(w) e^(-rate z) dtheta over tau = start + z, 0 <= z <= length. With z = reach/(1 + e^-s) all

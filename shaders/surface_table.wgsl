@@ -56,7 +56,7 @@ struct SurfacePlace {
 }
 
 fn place_of_texel(texel: vec2<u32>, size: vec2<u32>) -> SurfacePlace {
-    let share = vec2<f32>(texel) / vec2<f32>(max(size, vec2<u32>(2u)) - 1u);
+    let share = vec2<f32>(texel) / vec2<f32>(size - 1u);
     return SurfacePlace(TABLE_DEPTH * share.x, HALF_PI * share.y);
 }
 
@@ -123,7 +123,7 @@ fn ring_of_lobe(place: SurfacePlace, n: f32, width: f32, i: u32) -> Ring {
 
 // J of a channel, 0 where the light is not in front.
 fn j_at(table: texture_2d<f32>, weights: vec4<f32>, depth: f32, cosine: f32) -> f32 {
-    let place = vec2<f32>(depth / TABLE_DEPTH, acos(clamp(cosine, -1.0, 1.0)) / HALF_PI);
+    let place = vec2<f32>(depth / TABLE_DEPTH, acos(saturate(cosine)) / HALF_PI);
     return select(0.0, dot(weights, bilinear(table, place)), cosine >= 0.0);
 }
 

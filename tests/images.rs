@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use libtest_mimic::{Arguments, Failed, Trial};
 use tyndall_plugin::SearchPath;
-use tyndall_testing::{Found, Options, Sessions, Told, discover};
+use tyndall_testing::{Found, Options, Sessions, ShownMistakes, discover};
 use tyndall_tests::root;
 
 fn main() -> ExitCode {
@@ -20,7 +20,7 @@ fn main() -> ExitCode {
     assert!(!tests.is_empty(), "the repository has no image test");
     // As the program looks for plugins where it is started.
     let search = vec![SearchPath { path: PathBuf::from("plugins"), required: false }];
-    let shared = Arc::new((Sessions::new(tyndall::shipped(), search), Mutex::new(Told::default())));
+    let shared = Arc::new((Sessions::new(tyndall::shipped(), search), Mutex::new(ShownMistakes::default())));
     let trial = |path: PathBuf| {
         let shared = shared.clone();
         Trial::test(name(&path), move || run(&shared.0, &shared.1, &path))
@@ -38,10 +38,10 @@ fn name(path: &Path) -> String {
     name.strip_suffix(".test.ron").unwrap_or(&name).to_owned()
 }
 
-fn run(sessions: &Sessions, told: &Mutex<Told>, path: &Path) -> Result<(), Failed> {
+fn run(sessions: &Sessions, shown: &Mutex<ShownMistakes>, path: &Path) -> Result<(), Failed> {
     let outcome = sessions.with(|session| session.run(path, &Options::default()))?;
     if outcome.passed() {
         return Ok(());
     }
-    Err(Failed::from(told.lock().unwrap_or_else(PoisonError::into_inner).text(&outcome)))
+    Err(Failed::from(shown.lock().unwrap_or_else(PoisonError::into_inner).text(&outcome)))
 }

@@ -92,22 +92,23 @@ impl Desk {
         (ended.status.code().unwrap_or(-1), String::from_utf8_lossy(&text).into_owned())
     }
 
-    /// What is told of the scene with a part of it replaced.
+    /// What is messages of the scene with a part of it replaced.
     fn mistakes(&self, from: &str, to: &str) -> String {
         assert!(SCENE.contains(from));
         self.put("wrong.scene.ron", &SCENE.replace(from, to));
-        let (code, told) = self.run(&["check", "wrong.scene.ron"]);
-        assert_eq!(code, 2, "{told}");
-        told
+        let (code, messages) = self.run(&["check", "wrong.scene.ron"]);
+        assert_eq!(code, 2, "{messages}");
+        messages
     }
 
     /// Four channels of a pixel of the graph's picture.
     fn pixel(&self, x: u32, frame: u32, settings: &[&str]) -> Vec<f64> {
         let (pixel, frame) = (format!("{x},0"), frame.to_string());
         let arguments = ["probe", "flare.graph.ron", "radiance", &pixel, "--frame", &frame];
-        let (code, told) = self.run(&[&arguments[..], settings].concat());
-        assert_eq!(code, 0, "{told}");
-        let numbers = told.trim().strip_prefix(&format!("radiance {pixel}: ")).unwrap_or_else(|| panic!("{told}"));
+        let (code, messages) = self.run(&[&arguments[..], settings].concat());
+        assert_eq!(code, 0, "{messages}");
+        let numbers =
+            messages.trim().strip_prefix(&format!("radiance {pixel}: ")).unwrap_or_else(|| panic!("{messages}"));
         numbers.split_whitespace().map_while(|word| word.parse().ok()).collect()
     }
 }
@@ -132,8 +133,9 @@ fn a_crate_outside_brings_a_scene_field_a_table_and_a_pass() {
         [2.0, 4.0, 8.0, 1.0]
     );
     // The data vary with the time, so the pass runs anew; where they do not, its result is kept.
-    let (code, told) = desk.run(&["render", "flare.graph.ron", "--frames", "0..2", "--output", "radiance=####.npy"]);
-    assert_eq!(code, 0, "{told}");
+    let (code, messages) =
+        desk.run(&["render", "flare.graph.ron", "--frames", "0..2", "--output", "radiance=####.npy"]);
+    assert_eq!(code, 0, "{messages}");
     let frames = ["0000.npy", "0001.npy"].map(|name| std::fs::read(desk.folder.path().join(name)).unwrap());
     assert_ne!(frames[0], frames[1]);
 
@@ -149,15 +151,18 @@ fn a_crate_outside_brings_a_scene_field_a_table_and_a_pass() {
         ("shares.txt", "share.txt", &["missing-file", "share.txt", "wrong.scene.ron:4:100"]),
         (", profile: \"shares.txt\"", "", &["missing-field", "a flare needs the field `profile`"]),
     ] {
-        let told = desk.mistakes(from, to);
-        assert!(expected.iter().all(|text| told.contains(text)), "{to}: {expected:?}\n{told}");
+        let messages = desk.mistakes(from, to);
+        assert!(expected.iter().all(|text| messages.contains(text)), "{to}: {expected:?}\n{messages}");
     }
-    let (code, told) = desk.run(&["check", "flare.graph.ron"]);
-    assert_eq!(code, 0, "{told}");
-    let (_, told) = desk.run(&["probe", "flare.graph.ron", "radiance", "0,0", "--set", "scene.flare.strength=1e9"]);
-    assert!(told.contains("the flare is brighter than any eye can bear"), "{told}");
-    let (code, told) = desk.run(&["probe", "flare.graph.ron", "radiance", "0,0", "--set", "scene.lights=[]"]);
-    assert!(code == 2 && told.contains("pass `flare` (flare.row) draws lamps, and the scene has none"), "{told}");
+    let (code, messages) = desk.run(&["check", "flare.graph.ron"]);
+    assert_eq!(code, 0, "{messages}");
+    let (_, messages) = desk.run(&["probe", "flare.graph.ron", "radiance", "0,0", "--set", "scene.flare.strength=1e9"]);
+    assert!(messages.contains("the flare is brighter than any eye can bear"), "{messages}");
+    let (code, messages) = desk.run(&["probe", "flare.graph.ron", "radiance", "0,0", "--set", "scene.lights=[]"]);
+    assert!(
+        code == 2 && messages.contains("pass `flare` (flare.row) draws lamps, and the scene has none"),
+        "{messages}"
+    );
 }
 
 /// A program without the plugin does not know its field, and says which there are.
@@ -167,10 +172,11 @@ fn a_field_of_a_plugin_that_is_not_there_is_unknown() {
     std::fs::write(folder.path().join("flare.scene.ron"), SCENE).unwrap();
     let mut checked = Command::new(env!("CARGO_BIN_EXE_tyndall"));
     let checked = checked.args(["check", "flare.scene.ron"]).current_dir(&folder).output().unwrap();
-    let told = String::from_utf8_lossy(&checked.stderr);
-    assert_eq!(checked.status.code(), Some(2), "{told}");
+    let messages = String::from_utf8_lossy(&checked.stderr);
+    assert_eq!(checked.status.code(), Some(2), "{messages}");
     assert!(
-        told.contains("a scene has no field `flare`") && told.contains("available: `camera`, `medium`, `background`"),
-        "{told}"
+        messages.contains("a scene has no field `flare`")
+            && messages.contains("available: `camera`, `medium`, `background`"),
+        "{messages}"
     );
 }

@@ -50,9 +50,8 @@ fn shade(corner: Corner) -> Visible {
     let plane = dot(normal, a) / dot(normal, ray);
     // A rasteriser may count a pixel whose centre lies just outside, and seen at a grazing angle the plane is far off
     // there; but no point of the triangle is nearer than its nearest corner, or farther than its farthest.
-    let depths = camera.forward * mat3x3(a, b, c);
-    let nearest = min(min(depths.x, depths.y), depths.z);
-    let farthest = max(max(depths.x, depths.y), depths.z);
+    let nearest = min(min(dot(a, camera.forward), dot(b, camera.forward)), dot(c, camera.forward));
+    let farthest = max(max(dot(a, camera.forward), dot(b, camera.forward)), dot(c, camera.forward));
     let t = clamp(plane, max(nearest, camera.nearest), farthest);
     // Where two faces meet in an outline, the one that faces the eye wins.
     let behind = select(1.0, 1.0 + BACK_FACE_BIAS, dot(normal, ray) > 0.0);

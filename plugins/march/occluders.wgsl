@@ -12,8 +12,6 @@
 // Whether a walk ended before it was done.
 var<private> occluders_missed: bool = false;
 
-// How far away a directional light is looked for, m.
-const SUN_WAY: f32 = 1e5;
 // By what part a number may have been rounded in all that leads to the height of a light above a triangle, as in shadows.rs.
 const ROUNDED: f32 = 8.0 / 16777216.0;
 // Boxes are larger by this part, so that rounding errors lose none.
@@ -32,7 +30,11 @@ struct Fan {
 
 fn fan_of(light: Light, start: vec3<f32>, end: vec3<f32>) -> Fan {
     let is_sun = light.kind == DIRECTIONAL;
-    let sun_way = -SUN_WAY * light.direction;
+    // a directional light is looked for as far as there are boxes
+    let root = occluder_nodes.items[0];
+    let of_start = max(abs(root.low - start), abs(root.high - start));
+    let of_end = max(abs(root.low - end), abs(root.high - end));
+    let sun_way = -length(max(of_start, of_end)) * light.direction;
     let to_light = select(light.position - start, sun_way, is_sun);
     let from_end = select(light.position - end, sun_way, is_sun);
     let nearer = min(start, end);

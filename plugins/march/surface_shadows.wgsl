@@ -8,6 +8,9 @@
 
 // Part of the way at which it is asked: before the surface, so that it does not hide itself from what it faces.
 const BEFORE_SURFACE: f32 = 0.9999;
+// The other points that are asked for at once follow in steps of this part of the way: near, so that few boxes are looked into,
+// and not so near that the plane of all of them is lost in rounding.
+const NEXT_POINT: f32 = 0.01;
 // Where there is no surface, m: no farther, for what is met is asked of boxes that grow with the way, and no more than needed.
 const FARTHEST: f32 = 1e4;
 
@@ -23,7 +26,7 @@ struct Gathered {
 }
 
 fn gather(before: Gathered, light: Light) -> Gathered {
-    let is_lit = (hidden_points(light, before.ray, before.x, 1.0) & 1u) == 0u;
+    let is_lit = (hidden_points(light, before.ray, before.x, NEXT_POINT * before.x) & 1u) == 0u;
     let lit = before.lit | select(vec4<u32>(0u), bit_of_light(before.light), is_lit);
     return Gathered(before.light + 1u, lit, before.ray, before.x);
 }

@@ -106,7 +106,7 @@ const COSINE_BITS: u32 = 0x3ffu;
 // Whether some of an edge may be between the ray and the light. What makes a smaller angle with the axis than the ray does, as
 // the eye sees it, is beyond the ray; without a look at its edge that is most of what a ray through a tree meets.
 fn may_hide(crossing: u32, ray: ShadowRay) -> bool {
-    return ray.cosine + 1e-6 >= f32(crossing & COSINE_BITS) * (2.0 / f32(COSINE_BITS)) - 1.0;
+    return ray.cosine >= f32(crossing & COSINE_BITS) * (2.0 / f32(COSINE_BITS)) - 1.0;
 }
 
 // Whether all that has n/r = `ratio` or less is crossed at x or farther. Of what may be anywhere the ratio says nothing.

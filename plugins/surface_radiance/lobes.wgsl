@@ -31,8 +31,8 @@ fn zonal_sums(n: f32, cosines: vec2<f32>, row: u32) -> vec2<f32> {
     let terms = textureDimensions(coefficients).x;
     var sums = vec2<f32>(0.0);
     // P_(l-1) and P_l; K_l, K_(l+1), by K_(l+2) = K_l (n-l)/(n+l+3)
-    var before = vec2<f32>(0.0);
     var p = vec2<f32>(1.0);
+    var before = p; // multiplied by 0 first
     var k = 2.0 * PI * vec2<f32>(1.0 / (n + 1.0), 1.0 / (n + 2.0));
     for (var l = 0u; l < terms; l++) {
         let degree = f32(l);

@@ -64,8 +64,8 @@ fn glow_at(scattering: Phase, depth: f32, a: f32) -> f32 {
 
 // P_l by its recurrence.
 fn legendre(l: u32, cosine: f32) -> f32 {
-    var below = 0.0;
     var value = 1.0;
+    var below = value; // multiplied by 0 first
     var k = 0.0;
     loop {
         let next = ((2.0 * k + 1.0) * cosine * value - k * below) / (k + 1.0);

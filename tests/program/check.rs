@@ -134,12 +134,12 @@ fn warnings_can_be_left_out() {
         "m.scene.ron",
         "(camera: (position: (0, 0, 5), look_at: (0, 0, 0)), objects: [(mesh: File(\"model.gltf\"))])",
     );
-    let told = |arguments: &[&str]| desk.ends(0, arguments).err.contains("warning[gltf-ignored]");
-    assert!(told(&["check", "m.scene.ron"]));
-    assert!(!told(&["check", "m.scene.ron", "--quiet"]));
-    assert!(!told(&["check", "m.scene.ron", "--allow", "brighter-than-white", "--allow", "gltf-ignored"]));
-    assert!(told(&["check", "m.scene.ron", "--allow", "gltf-mode"]));
-    assert!(!told(&["show", "fog.graph.ron", "--scene", "m.scene.ron"]));
+    let messages = |arguments: &[&str]| desk.ends(0, arguments).err.contains("warning[gltf-ignored]");
+    assert!(messages(&["check", "m.scene.ron"]));
+    assert!(!messages(&["check", "m.scene.ron", "--quiet"]));
+    assert!(!messages(&["check", "m.scene.ron", "--allow", "brighter-than-white", "--allow", "gltf-ignored"]));
+    assert!(messages(&["check", "m.scene.ron", "--allow", "gltf-mode"]));
+    assert!(!messages(&["show", "fog.graph.ron", "--scene", "m.scene.ron"]));
     let json = desk.ends(0, &["check", "m.scene.ron", "--format", "json", "--quiet"]).out;
     assert_eq!(json.trim(), "[]");
     assert!(

@@ -35,8 +35,8 @@ fn a_switch_without_its_input_is_told() {
     let draw = |name: &str, more: &[&str]| {
         desk.ends(0, &[&["render", name, "--size", "8x6", "--output", "surface=a.exr"], more].concat()).err
     };
-    let told = draw("bare.graph.ron", &[]);
-    assert!(told.contains("warning[input-needed]") && told.contains("`table`"), "{told}");
+    let messages = draw("bare.graph.ron", &[]);
+    assert!(messages.contains("warning[input-needed]") && messages.contains("`table`"), "{messages}");
     let without = image(&desk, "a.exr");
     for quiet in
         [draw("bare.graph.ron", &["--set", "scattered=false"]), draw("fog.graph.ron", &["--set", "scattered=false"])]

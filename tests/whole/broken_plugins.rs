@@ -133,7 +133,7 @@ fn a_broken_folder_still_replaces_a_crate() {
         let text = mistakes(&registry, pass);
         assert!(text.contains("core/plugin.ron:1:"), "{text}");
     }
-    // An earlier path's does as well, and one on a later path is not looked at, but told.
+    // An earlier path's does as well, and one on a later path is not looked at, but messages.
     let (sound, broken) = (self::plugins("t", "p.wgsl", SHADER.as_bytes()), self::plugins("t", "plugin.ron", b"("));
     let first = unchecked_registry(&[broken.path(), sound.path()]);
     assert!(mistakes(&first, "t.p").contains("plugin.ron:1:1"));

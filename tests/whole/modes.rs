@@ -188,9 +188,12 @@ fn what_the_tables_leave_out_is_told() {
     let warned = |scene: Option<&Path>, settings: &[&str]| {
         desk.warnings(&desk.request(&shipped("modes/table"), scene, Some((8, 6)), settings))
     };
-    let told = warned(None, &[]);
-    assert!(told.contains("warning[limit]: pass `scattered`: a spot") && told.contains("a directional light scatters"));
-    assert!(told.contains("table.graph.ron:"), "{told}");
+    let messages = warned(None, &[]);
+    assert!(
+        messages.contains("warning[limit]: pass `scattered`: a spot")
+            && messages.contains("a directional light scatters")
+    );
+    assert!(messages.contains("table.graph.ron:"), "{messages}");
     assert!(!warned(None, &["scattered=false"]).contains("[limit]"));
     let scene = reference("ground_phong.scene.ron");
     let plain = warned(Some(&scene), &[]);

@@ -25,7 +25,7 @@ fn a_sample_of_mutants_is_killed() {
     };
     let findings = hunt(&mut session, &request, &mut |_| {}).unwrap_or_else(|trouble| panic!("{trouble:?}"));
     let figures = Figures::of(&findings);
-    let told = findings.iter().flat_map(missed).collect::<Vec<_>>().join("\n");
-    assert_eq!(figures.misnamed, 0, "{told}");
-    assert!(figures.made >= 6 && 2 * figures.without_goldens >= figures.made, "{told}");
+    let messages = findings.iter().flat_map(missed).collect::<Vec<_>>().join("\n");
+    assert_eq!(figures.misnamed, 0, "{messages}");
+    assert!(figures.made >= 6 && 2 * figures.without_goldens >= figures.made, "{messages}");
 }

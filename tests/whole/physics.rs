@@ -439,10 +439,10 @@ fn homogeneous_passes_refuse_height_fog() {
     desk.put("fog.scene.ron", &scene(LAMP, FLOOR).replace("extinction", "scale_height: 5, extinction"));
     let drawn = desk.try_draw(&shipped("fog"), "fog.scene.ron", SIZE, &["radiance"], &[]);
     let error = drawn.err().unwrap();
-    let told = error.to_string();
-    assert!(matches!(error, Error::Mistakes(_)) && told.contains("scene-refused"), "{told}");
-    assert!(told.contains("airlight.homogeneous") && told.contains("airlight.height_fog"), "{told}");
-    assert!(told.contains("fog.graph.ron:"), "{told}");
+    let messages = error.to_string();
+    assert!(matches!(error, Error::Mistakes(_)) && messages.contains("scene-refused"), "{messages}");
+    assert!(messages.contains("airlight.homogeneous") && messages.contains("airlight.height_fog"), "{messages}");
+    assert!(messages.contains("fog.graph.ron:"), "{messages}");
 }
 
 /// The graph of height fog draws the same as the one of homogeneous media where the density does not fall.

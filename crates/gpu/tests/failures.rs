@@ -47,9 +47,9 @@ fn a_picture_over_the_limits_is_refused_before_anything_is_created() {
         let before = gpu.objects_created();
         for (plan, side) in [(wide, "width"), (high, "height")] {
             let error = memory::check(&gpu, &plan, 0).unwrap_err();
-            let told = error.to_string();
-            assert!(matches!(error, GpuError::OverLimit { .. }), "{told}");
-            assert!(told.starts_with(&format!("the {side} of `p")) && told.contains("100000"), "{told}");
+            let messages = error.to_string();
+            assert!(matches!(error, GpuError::OverLimit { .. }), "{messages}");
+            assert!(messages.starts_with(&format!("the {side} of `p")) && messages.contains("100000"), "{messages}");
         }
         assert_eq!(gpu.objects_created(), before);
         assert!(memory::check(&gpu, &plan(&graph, &PlanOptions::new((64, 64))).unwrap(), 0).is_ok());
@@ -81,9 +81,9 @@ fn more_memory_than_there_is_is_refused_before_anything_is_created() {
 #[test]
 fn an_unknown_adapter_lists_those_that_there_are() {
     let Err(error) = Gpu::open(Some("no such adapter")) else { panic!("it opened") };
-    let told = error.to_string();
-    assert!(matches!(error, GpuError::UnknownAdapter { .. }), "{told}");
-    assert!(told.contains(&tyndall_gpu::adapters()[0].name), "{told}");
+    let messages = error.to_string();
+    assert!(matches!(error, GpuError::UnknownAdapter { .. }), "{messages}");
+    assert!(messages.contains(&tyndall_gpu::adapters()[0].name), "{messages}");
 }
 
 /// Part of a name is enough, in any case.

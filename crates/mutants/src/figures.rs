@@ -101,7 +101,7 @@ pub fn missed(of_pass: &PassFindings) -> Vec<String> {
     let mut lines: Vec<String> = survivors().flat_map(mutant_lines).collect();
     for mutant in by_goldens() {
         lines.push(format!("  {}: killed by goldens only", place(mutant)));
-        lines.push(format!("    `{}`  {}", mutant.mutation.change, told(&mutant.without_goldens)));
+        lines.push(format!("    `{}`  {}", mutant.mutation.change, verdict_text(&mutant.without_goldens)));
     }
     lines
 }
@@ -109,7 +109,7 @@ pub fn missed(of_pass: &PassFindings) -> Vec<String> {
 fn mutant_lines(mutant: &Mutant) -> Vec<String> {
     let mut lines = vec![
         format!("  {}: not killed", place(mutant)),
-        format!("    `{}`  {}", mutant.mutation.change, told(&mutant.verdict)),
+        format!("    `{}`  {}", mutant.mutation.change, verdict_text(&mutant.verdict)),
     ];
     lines.extend(mutant.reason.as_ref().map(|reason| format!("    reason: {reason}")));
     lines
@@ -122,7 +122,7 @@ fn place(mutant: &Mutant) -> String {
     format!("{file}{at}  {}, {}", mutation.function, mutation.kind.name())
 }
 
-fn told(verdict: &Verdict) -> String {
+fn verdict_text(verdict: &Verdict) -> String {
     match verdict {
         Verdict::Killed { test } => format!("killed by {test}"),
         Verdict::Misnamed { test, named } => format!("{test} fails, and names `{}`", named.join("`, `")),
@@ -155,9 +155,9 @@ pub fn json(seed: u64, findings: &[PassFindings]) -> Value {
             "change": mutant.mutation.change,
             "kind": mutant.mutation.kind.name(),
             "killed": mutant.verdict.is_killed(),
-            "verdict": told(&mutant.verdict),
+            "verdict": verdict_text(&mutant.verdict),
             "killed_without_goldens": mutant.without_goldens.is_killed(),
-            "without_goldens": told(&mutant.without_goldens),
+            "without_goldens": verdict_text(&mutant.without_goldens),
             "reason": mutant.reason,
         })
     };

@@ -68,7 +68,7 @@ impl From<Diagnostics> for Trouble {
 pub fn hunt(
     session: &mut Session,
     hunt: &Hunt,
-    told: &mut dyn FnMut(&PassFindings),
+    report: &mut dyn FnMut(&PassFindings),
 ) -> Result<Vec<PassFindings>, Trouble> {
     let baseline = baseline(session, hunt)?;
     let mut reasons = Reasons::default();
@@ -87,7 +87,7 @@ pub fn hunt(
             let Mutation { function, change, .. } = &mutant.mutation;
             mutant.reason = reasons.of(&findings.pass, function, change, mutant.verdict.is_killed());
         }
-        told(&findings);
+        report(&findings);
         all.push(findings);
     }
     match reasons.refuse_needless() {

@@ -44,8 +44,8 @@ fn of_type(linked: &Linked, ty: Type, name: &str, size: u32) -> Option<String> {
     }
     let expected = ty.members.iter().filter(|member| !member.name.starts_with("pad"));
     let expected: Vec<String> = expected.map(|m| format!("`{}: {}` at byte {}", m.name, m.ty, m.offset)).collect();
-    let told = |m: &Member| format!("`{}: {}` at byte {}", m.name, m.ty, m.offset);
-    let found: Vec<String> = found.iter().filter(|member| !member.name.starts_with("pad")).map(told).collect();
+    let described = |m: &Member| format!("`{}: {}` at byte {}", m.name, m.ty, m.offset);
+    let found: Vec<String> = found.iter().filter(|member| !member.name.starts_with("pad")).map(described).collect();
     let at = (0..expected.len().max(found.len())).find(|at| expected.get(*at) != found.get(*at));
     let or_end = |member: Option<&String>| member.cloned().unwrap_or_else(|| format!("the end of `{}`", ty.name));
     match at {

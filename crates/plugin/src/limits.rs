@@ -26,7 +26,7 @@ fn limit(decoder: &mut Decoder<'_>, node: &Node, features: &[Feature]) -> Option
     let feature = *features.iter().find(|feature| feature.name == name)?;
     let content = content.map(arguments).unwrap_or_default();
     let [text] = content.as_slice() else {
-        decoder.wrong_type(node, &format!("`{name}(\"what is told of it\")`"));
+        decoder.wrong_type(node, &format!("`{name}(\"the message\")`"));
         return None;
     };
     Some(Limit { feature, text: decoder.text(text)?.to_owned() })

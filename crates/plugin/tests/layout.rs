@@ -72,9 +72,9 @@ fn a_shader_that_does_not_agree_is_refused() {
         ("pad2: u32, items: array<Spark>", "pad2: u32, items: array<Spark, 4>", "it is a `count: u32`", 1),
     ] {
         assert!(SPARK.contains(from));
-        let told = mistakes(&SPARK.replace(from, to));
-        assert_eq!(told.matches("error[scene-layout]").count(), count, "{to}: {told}");
-        assert!(told.contains(expected), "{to}: {told}");
+        let messages = mistakes(&SPARK.replace(from, to));
+        assert_eq!(messages.matches("error[scene-layout]").count(), count, "{to}: {messages}");
+        assert!(messages.contains(expected), "{to}: {messages}");
     }
     let array = SPARK.replace("first: Spark;", "first: array<Spark, 2>;").replace("first.color", "first[0].color");
     assert!(mistakes(&array).contains("expected `Spark`, found `array<Spark, 2>`"), "{}", mistakes(&array));

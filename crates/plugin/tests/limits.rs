@@ -39,7 +39,7 @@ fn registry(limits: &str) -> Result<Registry, Arc<str>> {
 
 const OTHER: &str = "(name: \"other\", version: \"0.1.0\", about: \"Brings a feature.\", passes: {})";
 
-fn told(limits: &[Limit]) -> Vec<(&str, &str)> {
+fn messages_of(limits: &[Limit]) -> Vec<(&str, &str)> {
     limits.iter().map(|limit| (limit.feature.name, limit.text.as_str())).collect()
 }
 
@@ -50,8 +50,8 @@ fn limits_are_read() {
         let limits = "[Spot(\"dark\"), ThreeLights(\"two\")], refuses: [Medium(\"is for clear air only\")]";
         let registry = registry_of(&brings, limits).unwrap_or_else(|text| panic!("{brings:?}: {text}"));
         let pass = registry.pass("test.fill").expect("it was registered");
-        assert_eq!(told(&pass.limits), [("Spot", "dark"), ("ThreeLights", "two")]);
-        assert_eq!(told(&pass.refuses), [("Medium", "is for clear air only")]);
+        assert_eq!(messages_of(&pass.limits), [("Spot", "dark"), ("ThreeLights", "two")]);
+        assert_eq!(messages_of(&pass.refuses), [("Medium", "is for clear air only")]);
     }
     assert!(registry_of(&["ManyLights"], "[ManyLights(\"dark\")]").is_ok());
 }
@@ -63,7 +63,7 @@ fn mistakes_have_a_place_and_a_hint() {
         ("[Spott(\"dark\")]", "plugin.ron:2:61"),
         ("[Spott(\"dark\")]", "did you mean `Spot`?"),
         ("[ManyLights(\"dark\")]", "help: available: `Point`, `Spot`, `Directional`, `Medium`, `ThreeLights`"),
-        ("[Spot]", "error[wrong-type]: expected `Spot(\"what is told of it\")`"),
+        ("[Spot]", "error[wrong-type]: expected `Spot(\"the message\")`"),
         ("[Spot(3)]", "error[wrong-type]: expected a string, found the number 3"),
         ("(1, 2)", "error[wrong-type]: expected a list"),
         ("[], dispatch: (0, 3)", "error[wrong-type]: expected the name of a port, or numbers of threads: (x, y, z)"),

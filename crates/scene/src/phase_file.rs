@@ -76,10 +76,10 @@ fn row(source: &Arc<Source>, words: &[Span], numbers: &[Option<f64>]) -> Result<
 
 fn table(source: &Arc<Source>, rows: &[Row]) -> Result<&'static PhaseTable, Mistake> {
     let numbers: Vec<(f64, f64)> = rows.iter().map(|row| row.numbers).collect();
-    PhaseTable::new(&numbers).map_err(|fault| told(source, rows, fault))
+    PhaseTable::new(&numbers).map_err(|fault| mistake_in(source, rows, fault))
 }
 
-fn told(source: &Arc<Source>, rows: &[Row], fault: TableFault) -> Mistake {
+fn mistake_in(source: &Arc<Source>, rows: &[Row], fault: TableFault) -> Mistake {
     let whole = Span::new(0, source.text().len().min(1) as u32);
     let of = |row: usize, column: usize| (rows[row].spans[column], source.slice(rows[row].spans[column]));
     let (span, message) = match fault {

@@ -210,8 +210,8 @@ fn three_numbers_scale_each_axis() {
         [("(1, 0, 1)", "`scale` is 0; it must be above or below 0"), ("(1, 2)", "a tuple of 3 numbers")]
     {
         let text = format!("({CAMERA} objects: [(mesh: Box(size: (1, 1, 1)), scale: {scale})])");
-        let told = render_text(&read_with(&text, &[]).expect_err("it is wrong"), false);
-        assert!(told.contains(message), "{told}");
+        let messages = render_text(&read_with(&text, &[]).expect_err("it is wrong"), false);
+        assert!(messages.contains(message), "{messages}");
     }
 }
 
@@ -277,7 +277,7 @@ fn overrides_replace_and_add() {
 fn mistakes_in_overrides_name_the_argument() {
     let text =
         format!("({CAMERA} lights: [Point(position: (0, 0, 0), intensity: (1, 1, 1))], medium: (albedo: (2, 0, 0)))");
-    let told = |overrides: &[(&str, &str)]| {
+    let messages = |overrides: &[(&str, &str)]| {
         let errors = read_with(&text, overrides).expect_err("there are mistakes");
         let line = |d: &tyndall_document::Diagnostic| {
             let place = match &d.place {
@@ -291,7 +291,7 @@ fn mistakes_in_overrides_name_the_argument() {
     };
     let albedo = ("out-of-range", "2".to_owned(), None);
     assert_eq!(
-        told(&[("medium.extincton", "(1, 1, 1)")]),
+        messages(&[("medium.extincton", "(1, 1, 1)")]),
         [
             albedo.clone(),
             (
@@ -302,11 +302,11 @@ fn mistakes_in_overrides_name_the_argument() {
         ]
     );
     assert_eq!(
-        told(&[("lights.3.intensity", "(1, 1, 1)")]),
+        messages(&[("lights.3.intensity", "(1, 1, 1)")]),
         [albedo.clone(), ("unknown-path", "--set scene.lights.3.intensity=(1, 1, 1)".to_owned(), None)]
     );
     assert_eq!(
-        told(&[("lights.0.intensity", "(1, -1, 1)"), ("medium.albedo", "(1, 1, 1)")]),
+        messages(&[("lights.0.intensity", "(1, -1, 1)"), ("medium.albedo", "(1, 1, 1)")]),
         [("out-of-range", "--set scene.lights.0.intensity=(1, -1, 1)".to_owned(), None)]
     );
 }

@@ -1,4 +1,4 @@
-//! glTF files as exporters write them: what may be left out, what is left out of the picture, and how that is told.
+//! glTF files as exporters write them: what may be left out, what is left out of the picture, and how that is messages.
 
 use std::sync::Arc;
 

@@ -139,9 +139,9 @@ fn mistakes_have_their_place() {
         ("objects: [(mesh: Sphere(radius: 1), material: (relief: \"none.png\"))]", "error[missing-file]"),
         ("objects: [(mesh: Sphere(radius: 1), weight: 0, scale: 0)]", "`scale` is 0"),
     ] {
-        let told = read_with(rest, &Overrides::new()).map(|_| ()).expect_err(rest);
-        let told = render_text(&told, false);
-        assert!(told.contains(expected), "{rest}: {told}");
+        let messages = read_with(rest, &Overrides::new()).map(|_| ()).expect_err(rest);
+        let messages = render_text(&messages, false);
+        assert!(messages.contains(expected), "{rest}: {messages}");
     }
 }
 
@@ -169,15 +169,15 @@ fn features_are_of_the_scene_and_of_plugins() {
 fn names_that_are_taken_are_refused() {
     let mut extensions = Extensions::default();
     extensions.add("glow", plugin()).expect("nothing clashes");
-    let told = extensions.add("ember", plugin()).expect_err("everything clashes");
-    assert_eq!(told.len(), 9, "{told:?}");
-    assert_eq!(told[0], "the scene data `glow_level` belongs to glow already");
-    assert_eq!(told[4], "the scene field `glow` belongs to glow already");
+    let messages = extensions.add("ember", plugin()).expect_err("everything clashes");
+    assert_eq!(messages.len(), 9, "{messages:?}");
+    assert_eq!(messages[0], "the scene data `glow_level` belongs to glow already");
+    assert_eq!(messages[4], "the scene field `glow` belongs to glow already");
     let mut core = Extension::default();
     core.add_data(SceneData::list("lights", &[], |_| vec![0u32]));
     core.add_field(&SceneField::<Object, f64>::new("mesh", weight));
     core.add_feature(Feature { name: "Spot", is_in: |_| true });
-    let told = extensions.add("core", core).expect_err("everything clashes");
+    let messages = extensions.add("core", core).expect_err("everything clashes");
     let expected = ["scene data `lights`", "scene field `mesh`", "scene feature `Spot`"];
-    assert_eq!(told, expected.map(|what| format!("the {what} belongs to the scene already")));
+    assert_eq!(messages, expected.map(|what| format!("the {what} belongs to the scene already")));
 }

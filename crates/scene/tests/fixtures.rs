@@ -64,7 +64,7 @@ fn all_mistakes_at_once() {
         objects: [(mesh: Sphere(radius: 0), scale: 0), (mesh: Torus(major: 1, minor: 1)), (mesh: File(\"models/none.glb\"))],
     )";
     let diagnostics = run(&Source::new("test.scene.ron", text));
-    let told: Vec<_> = diagnostics.iter().map(|d| d.code.0).collect();
+    let messages: Vec<_> = diagnostics.iter().map(|d| d.code.0).collect();
     let expected = [
         "camera-on-target",
         "out-of-range",
@@ -77,5 +77,5 @@ fn all_mistakes_at_once() {
         "out-of-range",
         "out-of-range",
     ];
-    assert_eq!(told, expected);
+    assert_eq!(messages, expected);
 }

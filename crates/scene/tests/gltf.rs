@@ -252,15 +252,15 @@ fn metallic_and_roughness_come_from_factors_and_a_texture() {
         let texels = material.texture.map(|index| scene.textures[index].texels.clone());
         (material.metallic_roughness.expect("of glTF"), texels, render_text(&warnings, false))
     };
-    let (same, texels, told) = material(json!({ "metallicFactor": 0.5 }), [[9, 51, 102, 9]; 2]);
-    assert_eq!((same.metallic, texels, told.as_str()), (0.5 * 0.4, None, ""));
+    let (same, texels, messages) = material(json!({ "metallicFactor": 0.5 }), [[9, 51, 102, 9]; 2]);
+    assert_eq!((same.metallic, texels, messages.as_str()), (0.5 * 0.4, None, ""));
     // α is 0.2².
     assert!((same.lobe.shininess - 312.0).abs() < 1e-9 && (same.lobe.peak - 49.7359).abs() < 1e-4, "{same:?}");
-    let (varied, texels, told) = material(json!({ "roughnessFactor": 0.5 }), [[9, 0, 255, 9], [9, 255, 0, 9]]);
+    let (varied, texels, messages) = material(json!({ "roughnessFactor": 0.5 }), [[9, 0, 255, 9], [9, 255, 0, 9]]);
     let texels: Vec<_> = texels.expect("a texture").into_iter().map(u32::to_le_bytes).collect();
     assert_eq!((varied.metallic, texels), (1.0, vec![[255; 4], [255, 255, 255, 0]]));
     assert!((varied.lobe.shininess - 127.5).abs() < 1e-9, "α is 0.25²: {varied:?}");
-    assert!(told.contains("material 0: roughness from texel to texel (its mean is used)"), "{told}");
+    assert!(messages.contains("material 0: roughness from texel to texel (its mean is used)"), "{messages}");
     // A mirror is a very sharp lobe.
     let (mirror, ..) = material(json!({ "roughnessFactor": 0 }), [[9, 0, 0, 9]; 2]);
     assert_eq!((mirror.metallic, mirror.lobe.shininess), (0.0, tyndall_scene::microfacets::SHARPEST));
@@ -345,14 +345,14 @@ fn meshes_are_drawn_at_every_place() {
     );
     // One mesh, drawn three times.
     assert!(scene.instances.iter().all(|instance| Arc::ptr_eq(&instance.mesh, &scene.instances[0].mesh)));
-    let told =
+    let messages =
         |change: &dyn Fn(&mut Value)| file(change).map_or_else(|errors| render_text(&errors, false), |_| String::new());
     for (value, message) in [
         (json!(99), "node 0, EXT_mesh_gpu_instancing: accessor 99 does not exist"),
         (json!("x"), "TRANSLATION is \"x\", and not the index of an accessor"),
         (json!(0), "2 elements beside 3"),
     ] {
-        let text = told(&|attributes| attributes["TRANSLATION"] = value.clone());
+        let text = messages(&|attributes| attributes["TRANSLATION"] = value.clone());
         assert!(text.contains(message), "{text}");
     }
 }
@@ -360,7 +360,7 @@ fn meshes_are_drawn_at_every_place() {
 /// Of a float there may be any value; a surface reflects what it gets and no more.
 #[test]
 fn colours_beyond_what_is_reflected_are_told() {
-    let told = |colors: &[f32]| {
+    let messages = |colors: &[f32]| {
         let mut file = File::new(json!({ "nodes": [{ "mesh": 0 }] }));
         let position = file.floats("VEC3", &ZIGZAG[..9]);
         let color = file.floats("VEC3", colors);
@@ -369,8 +369,8 @@ fn colours_beyond_what_is_reflected_are_told() {
         assert!(scene.instances[0].mesh.colors.iter().all(|color| color.max_element() <= 1.0));
         render_text(&warnings, false)
     };
-    assert_eq!(told(&[1.0001, 0., 0., 0., 1., 0., 0., 0., 1.]), "");
-    let text = told(&[1.5, 0., 0., 0., 1., 0., 0., 0., 1.]);
+    assert_eq!(messages(&[1.0001, 0., 0., 0., 1., 0., 0., 0., 1.]), "");
+    let text = messages(&[1.5, 0., 0., 0., 1., 0., 0., 0., 1.]);
     assert!(text.contains("not read: primitive 0 of mesh 0: vertex colours outside 0..1 (clamped)"), "{text}");
 }
 
@@ -391,13 +391,13 @@ fn materials_are_replaced_by_name() {
         assert_eq!((drawn[at].0.diffuse, drawn[at].0.shininess, drawn[at].1), (DVec3::X, 7.0, false));
     }
     assert!(drawn[1].0.metallic_roughness.is_some() && drawn[1].1);
-    let told = |object: &str| load(object).map_or_else(|errors| render_text(&errors, false), |_| String::new());
+    let messages = |object: &str| load(object).map_or_else(|errors| render_text(&errors, false), |_| String::new());
     for (object, message) in [
         ("materials: { \"Pain\": () }", "did you mean `Paint`?"),
         ("materials: { \"Paint\": () }, material: ()", "`material` replaces every material already"),
         ("materials: { \"Paint\": (difuse: (1, 1, 1)) }", "diffuse"),
         ("materials: [()]", "a map"),
     ] {
-        assert!(told(object).contains(message), "{object}: {}", told(object));
+        assert!(messages(object).contains(message), "{object}: {}", messages(object));
     }
 }

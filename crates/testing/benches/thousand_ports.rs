@@ -43,26 +43,26 @@ fn main() {
     let start = Instant::now();
     let blessed = session().run(&test, &Options { bless: true, ..Options::default() });
     assert_eq!(blessed.blessed.len(), PORTS, "{}", blessed.text());
-    told("blessing them once", start.elapsed());
+    print_time("blessing them once", start.elapsed());
 
     let mut plain = session();
     let outcome = plain.run(&test, &Options::default());
     assert!(outcome.passed() && outcome.ports.len() == PORTS, "{}", outcome.text());
     println!("{PORTS} ports of 64x64 on {}", plain.gpu().info.name);
-    told("rendering, with reading back", plain.saved.rendering);
-    told("comparing", outcome.took - plain.saved.rendering);
-    told("the whole test", outcome.took);
+    print_time("rendering, with reading back", plain.saved.rendering);
+    print_time("comparing", outcome.took - plain.saved.rendering);
+    print_time("the whole test", outcome.took);
 
     let mut reported = session();
     let mut outcome = reported.run(&test, &Options { for_report: true, ..Options::default() });
-    told("the same with the time of each pass", outcome.took);
+    print_time("the same with the time of each pass", outcome.took);
     let start = Instant::now();
     let report = Report::begin(&desk.path().join("report")).unwrap();
     report.add(&mut outcome).unwrap();
     report.finish("an adapter", &[outcome], &[]).unwrap();
-    told("thumbnails and pages", start.elapsed());
+    print_time("thumbnails and pages", start.elapsed());
 }
 
-fn told(what: &str, time: Duration) {
+fn print_time(what: &str, time: Duration) {
     println!("{what:<40} {:>7.2} s", time.as_secs_f64());
 }

@@ -8,8 +8,8 @@ use tyndall_plugin::{ReferenceInput, Registry};
 use tyndall_render::Loaded;
 
 use crate::adapter::AdapterClass;
-use crate::answers::Answers;
 use crate::blame::Upstream;
+use crate::cached_references::CachedReferences;
 use crate::file::{Property, Tapped};
 use crate::golden;
 use crate::metric::Judgement;
@@ -25,7 +25,7 @@ pub(crate) struct Judge<'a> {
     pub ready: &'a Ready,
     pub options: &'a Options,
     pub adapter: AdapterClass,
-    pub answers: &'a Answers,
+    pub answers: &'a CachedReferences,
 }
 
 impl Judge<'_> {
@@ -143,7 +143,7 @@ pub(crate) struct Computing<'a> {
     pub plan: &'a Plan,
     pub registry: &'a Registry,
     pub loaded: &'a Loaded,
-    pub answers: &'a Answers,
+    pub answers: &'a CachedReferences,
 }
 
 impl Computing<'_> {

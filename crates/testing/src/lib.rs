@@ -25,9 +25,9 @@
 //! ```
 
 mod adapter;
-mod answers;
 mod blame;
 mod bless;
+mod cached_references;
 pub mod codes;
 mod discover;
 mod draw;
@@ -49,9 +49,9 @@ mod run;
 mod session;
 mod sessions;
 mod shared;
+mod shown_mistakes;
 pub mod summary;
-mod told;
-mod untapped;
+mod unchecked;
 
 use std::path::Path;
 
@@ -63,14 +63,14 @@ pub use file::TestFile;
 pub use metric::{Compared, Judgement, Metric};
 pub use options::{Options, Robustness};
 pub use outcome::{
-    Check, GOLDEN, Outcome, PassOutcome, PortOutcome, Problem, Reach, RelationOutcome, State, Suspicion, Untapped,
+    Check, GOLDEN, Outcome, PassOutcome, PortOutcome, Problem, Reach, RelationOutcome, State, Suspicion, UncheckedPort,
 };
 pub use picture::Picture;
 pub use report::Report;
 pub use session::{Plugins, Rendered, Saved, Session, Variation};
 pub use sessions::Sessions;
 pub use shared::Shared;
-pub use told::Told;
+pub use shown_mistakes::ShownMistakes;
 
 /// Runs the test in a file with these plugins: for a `#[test]` of a plugin's crate.
 ///

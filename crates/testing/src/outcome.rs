@@ -22,11 +22,11 @@ pub struct Outcome {
     /// How ports change from run to run.
     pub relations: Vec<RelationOutcome>,
     /// In how many other ways everything was rendered, and held against the first bit by bit.
-    pub ways: usize,
+    pub variations: usize,
     /// What came out different in another order, with other memory, or when it was done again.
     pub robustness: Vec<String>,
     /// Ports that the test does not look at, for a report.
-    pub untapped: Vec<Untapped>,
+    pub unchecked: Vec<UncheckedPort>,
     /// What the passes that are named were made from, and nothing holds.
     pub suspicions: Vec<Suspicion>,
     /// What the test says and was not asked, with the reason.
@@ -67,7 +67,7 @@ pub struct PassOutcome {
 
 /// A port that a test does not look at.
 #[derive(Debug)]
-pub struct Untapped {
+pub struct UncheckedPort {
     /// `pass.port`.
     pub name: String,
     /// The pass that writes it.
@@ -249,7 +249,7 @@ impl Outcome {
     /// and these were left out. It has neither passed nor failed.
     pub fn checked_nothing(&self) -> bool {
         let checks = self.ports.iter().map(|port| port.checks.len()).sum::<usize>();
-        self.passed() && checks + self.relations.len() + self.ways == 0
+        self.passed() && checks + self.relations.len() + self.variations == 0
     }
 
     /// 0 passed, 1 something does not hold, 2 the input is wrong, 3 the machine cannot do it.
@@ -291,7 +291,7 @@ impl Outcome {
 
     /// Lets go of the pictures of its ports.
     pub fn drop_pictures(&mut self) {
-        self.untapped.clear();
+        self.unchecked.clear();
         self.ports.iter_mut().for_each(|port| (port.actual, port.expected) = (None, None));
         let checks = self.ports.iter_mut().flat_map(|port| &mut port.checks).map(|check| &mut check.judgement);
         let relations = self.relations.iter_mut().map(|relation| &mut relation.judgement);

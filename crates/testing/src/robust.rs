@@ -23,7 +23,7 @@ pub(crate) fn run(
     let outputs = final_ports(ready, own);
     let tapped: Vec<PortRef> = ready.tapped.iter().map(|tapped| tapped.port).collect();
     for (name, variation) in options.robustness.variations() {
-        outcome.ways += 1;
+        outcome.variations += 1;
         let mut found: Vec<Option<String>> = vec![None; own.len()];
         for ports in [&tapped, &outputs] {
             let other = session.render(&ready.loaded, &ready.registry, ports, &ready.file.frames, variation)?;

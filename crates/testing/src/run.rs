@@ -22,7 +22,7 @@ use crate::outcome::{Outcome, PassOutcome, PortOutcome, Problem, RelationOutcome
 use crate::picture::Picture;
 use crate::provenance::Origins;
 use crate::session::{Rendered, Session, Variation};
-use crate::untapped::{self, written};
+use crate::unchecked::{self, written};
 use crate::{bless, isolate, relation, robust};
 
 /// A test whose file, graph and scene are read.
@@ -100,8 +100,8 @@ impl Session {
             let frames = &ready.file.frames;
             let mut rendered = self.render(&ready.loaded, &ready.registry, &ports, frames, Variation::PLAIN)?;
             if options.for_report {
-                let take = |frame| untapped::take(&ready, options, frame);
-                outcome.untapped = rendered.iter_mut().flat_map(take).collect();
+                let take = |frame| unchecked::take(&ready, options, frame);
+                outcome.unchecked = rendered.iter_mut().flat_map(take).collect();
             }
             let adapter = AdapterClass::of(self.gpu());
             let judging = self.judging();

@@ -13,11 +13,11 @@ use tyndall_plugin::{Plugin, Registry, SearchPath};
 use tyndall_render::{Error, Loaded, Running};
 use tyndall_scene::Encoded;
 
-use crate::answers::Answers;
+use crate::cached_references::CachedReferences;
 use crate::picture::Picture;
 use crate::provenance::{Origins, origins};
 use crate::shared::Shared;
-use crate::untapped::written;
+use crate::unchecked::written;
 
 /// Makes the plugins of a registry.
 pub type Plugins = Vec<fn() -> Plugin>;
@@ -38,7 +38,7 @@ pub struct Session {
     costs: HashMap<MadeFrom, Duration>,
     /// Pictures that a driver has left undone.
     pub(crate) unfinished: Diagnostics,
-    pub(crate) answers: Answers,
+    pub(crate) answers: CachedReferences,
     /// Of everything that is rendered, where somebody asks for it.
     pub(crate) digest: Option<Digest>,
     /// What sharing has saved.
@@ -149,7 +149,7 @@ impl Session {
             shared: shared.clone(),
             costs: HashMap::new(),
             unfinished: Diagnostics::default(),
-            answers: Answers::sharing(&shared.references),
+            answers: CachedReferences::sharing(&shared.references),
             digest: None,
             saved: Saved::default(),
         })
@@ -168,7 +168,7 @@ impl Session {
             shared: Arc::new(self.shared.fork()),
             costs: HashMap::new(),
             unfinished: Diagnostics::default(),
-            answers: Answers::sharing(&self.shared.references),
+            answers: CachedReferences::sharing(&self.shared.references),
             digest: None,
             saved: Saved::default(),
         }

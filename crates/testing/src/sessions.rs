@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 use tyndall_plugin::SearchPath;
 use tyndall_render::Error;
 
-use crate::answers::locked;
+use crate::cached_references::locked;
 use crate::session::{Plugins, Session};
 use crate::shared::Shared;
 

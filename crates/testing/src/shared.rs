@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 
 use tyndall_gpu::PortData;
 
-use crate::answers::{Known, locked};
+use crate::cached_references::{Known, locked};
 use crate::session::ResultKey;
 
 /// What sessions share that run side by side, each in a thread of its own: results of passes by what they were made from,

@@ -29,7 +29,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Mutants) -> Result<()
     };
     let search = plugins::search_paths(arguments, &[]);
     let mut session = Session::new(app.plugins.clone(), search, verb.adapter.as_deref())?;
-    let (findings, needless) = match hunt(&mut session, &request, &mut told) {
+    let (findings, needless) = match hunt(&mut session, &request, &mut print_pass) {
         Ok(findings) => (findings, None),
         Err(Trouble::Needless(findings, needless)) => (findings, Some(needless)),
         Err(trouble) => return Err(failure(trouble)),
@@ -48,7 +48,7 @@ pub(crate) fn run(app: &App, arguments: &Arguments, verb: &Mutants) -> Result<()
 }
 
 /// What became of the mutants of a pass, as soon as it is done.
-fn told(of_pass: &PassFindings) {
+fn print_pass(of_pass: &PassFindings) {
     terminal::line(&headline(of_pass));
     missed(of_pass).iter().for_each(|line| terminal::line(line));
 }

@@ -7,7 +7,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use tyndall_document::render_text;
-use tyndall_testing::{Options, Outcome, Problem, Report, Robustness, Saved, Session, Shared, Told, discover, summary};
+use tyndall_testing::{
+    Options, Outcome, Problem, Report, Robustness, Saved, Session, Shared, ShownMistakes, discover, summary,
+};
 
 use crate::App;
 use crate::cli::{Arguments, Test};
@@ -99,7 +101,7 @@ struct Run {
     outcomes: Vec<Outcome>,
     adapter: String,
     saved: Saved,
-    told: Told,
+    shown: ShownMistakes,
 }
 
 impl Run {
@@ -109,7 +111,7 @@ impl Run {
         if outcome.ports.is_empty() && outcome.relations.is_empty() && outcome.problems.is_empty() {
             return Ok(());
         }
-        told(&outcome, &mut self.told);
+        print_outcome(&outcome, &mut self.shown);
         let start = Instant::now();
         let written = report.map_or(Ok(()), |report| report.add(&mut outcome));
         self.saved.reporting += start.elapsed();
@@ -193,7 +195,7 @@ fn orphaned(folder: PathBuf) -> Outcome {
     Outcome { path: folder.clone(), problems: vec![Problem::Orphan(folder)], ..Outcome::default() }
 }
 
-fn told(outcome: &Outcome, earlier: &mut Told) {
+fn print_outcome(outcome: &Outcome, earlier: &mut ShownMistakes) {
     let took = outcome.took.as_secs_f64() * 1e3;
     let word = match outcome.passed() {
         true if outcome.checked_nothing() => "NONE  ",

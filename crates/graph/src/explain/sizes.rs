@@ -12,7 +12,7 @@ const MOST_LINES: usize = 40;
 /// Every rule on the way from a port's size to the frame, a fixed size or a parameter.
 pub(super) fn size_lines(plan: &Plan, port: PortRef) -> Vec<String> {
     let (sizes, _) = sizes(&plan.graph, &plan.graph.wiring.feeds, plan.size);
-    let mut chain = Chain { plan, sizes, lines: Vec::new(), told: Vec::new() };
+    let mut chain = Chain { plan, sizes, lines: Vec::new(), explained: Vec::new() };
     chain.tell(port);
     chain.lines
 }
@@ -21,15 +21,15 @@ struct Chain<'a> {
     plan: &'a Plan,
     sizes: Sizes,
     lines: Vec<String>,
-    told: Vec<PortRef>,
+    explained: Vec<PortRef>,
 }
 
 impl Chain<'_> {
     fn tell(&mut self, port: PortRef) {
-        if self.told.contains(&port) || self.lines.len() >= MOST_LINES {
+        if self.explained.contains(&port) || self.lines.len() >= MOST_LINES {
             return;
         }
-        self.told.push(port);
+        self.explained.push(port);
         let graph = &self.plan.graph;
         let wiring = &graph.wiring;
         let number = wiring.passes.port(port);

@@ -6,13 +6,13 @@
 
 mod connections;
 mod cycles;
-mod given;
 mod mistakes;
 mod outside;
 mod params;
 mod scope;
 mod settings;
 mod sizes;
+mod stated;
 mod switches;
 mod types;
 

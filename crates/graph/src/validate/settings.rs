@@ -5,10 +5,10 @@ use std::path::Path;
 use rustc_hash::FxHashMap;
 use tyndall_document::{Diagnostic, Place};
 
-use super::given::{Given, overrides, unknown_param};
 use super::mistakes::Mistakes;
 use super::params::{GraphValue, Params};
 use super::scope::{Scope, missing_file};
+use super::stated::{Stated, overrides, unknown_param};
 use crate::codes;
 use crate::descriptor::{PRESET, ParamDescriptor, ParamValue, PassDescriptor};
 use crate::file::PassEntry;
@@ -65,20 +65,20 @@ impl<'a> Reader<'_, 'a> {
         let mut found = Found { settings: defaults.collect(), is_given: descriptor.params.column(false) };
         for entry in &entry.params {
             let name = file.text(&entry.name);
-            let given = Given { node: &entry.value, source: &file.source, argument: None };
+            let stated = Stated { node: &entry.value, source: &file.source, argument: None };
             if let Some(param) = descriptor.param_named(name) {
-                self.set(&mut found, ParamRef { pass, param }, given);
+                self.set(&mut found, ParamRef { pass, param }, stated);
                 continue;
             }
             if scope.is_known(pass) {
                 unknown_param(descriptor, name, scope.place(entry.name.span), str::to_owned, self.out);
             }
-            self.settings.used.extend(given.reference().and_then(|name| self.params.find(name)));
+            self.settings.used.extend(stated.reference().and_then(|name| self.params.find(name)));
         }
         for param in descriptor.params.handles().map(|param| ParamRef { pass, param }) {
             if let Some(Override { value: node, source, argument, .. }) = self.overrides.get(&param).copied() {
                 self.settings.uses.retain(|(_, by)| *by != param);
-                self.set(&mut found, param, Given { node, source, argument: Some(argument) });
+                self.set(&mut found, param, Stated { node, source, argument: Some(argument) });
             }
         }
         use_preset(descriptor, &mut found);
@@ -86,7 +86,7 @@ impl<'a> Reader<'_, 'a> {
     }
 
     /// Sets a parameter to what is given.
-    fn set(&mut self, found: &mut Found, param: ParamRef, given: Given<'_>) {
+    fn set(&mut self, found: &mut Found, param: ParamRef, given: Stated<'_>) {
         let kind = self.scope.passes.kind(param.pass);
         let descriptor = &kind.descriptor.params[param.param];
         found.is_given[param.param] = true;
@@ -99,7 +99,7 @@ impl<'a> Reader<'_, 'a> {
     }
 
     /// What is given as a setting of a parameter.
-    fn setting(&mut self, descriptor: &ParamDescriptor, param: ParamRef, given: Given<'_>) -> Option<ParamSetting> {
+    fn setting(&mut self, descriptor: &ParamDescriptor, param: ParamRef, given: Stated<'_>) -> Option<ParamSetting> {
         if let Some(name) = given.reference() {
             return self.referred(name, descriptor, param, given.place());
         }

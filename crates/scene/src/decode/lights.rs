@@ -3,7 +3,7 @@
 use glam::DVec3;
 use tyndall_document::{Decoder, Fields, Node};
 
-use super::{given, variant};
+use super::{or_default, variant};
 use crate::animate::Animated;
 use crate::field::Holder;
 use crate::model::{Light, LightKind, Placement};
@@ -40,8 +40,8 @@ fn spot(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Light> {
     let position = needed(decoder, &fields, "position", animated_place);
     let direction = needed(decoder, &fields, "direction", animated_direction);
     let intensity = needed(decoder, &fields, "intensity", animated_power);
-    let exponent = given(fields.get("exponent"), 0.0, |n| number(decoder, n, "exponent", Range::NotNegative));
-    let cutoff = given(fields.get("cutoff"), 90.0, |n| number(decoder, n, "cutoff", Range::UpTo(90.0)));
+    let exponent = or_default(fields.get("exponent"), 0.0, |n| number(decoder, n, "exponent", Range::NotNegative));
+    let cutoff = or_default(fields.get("cutoff"), 90.0, |n| number(decoder, n, "cutoff", Range::UpTo(90.0)));
     let radius = radius(decoder, &fields);
     let kind = LightKind::Spot { exponent: exponent?, cutoff: cutoff?.to_radians() };
     let placement = Placement::World { position: position?, direction: direction? };
@@ -69,5 +69,5 @@ fn needed(
 }
 
 fn radius(decoder: &mut Decoder, fields: &Fields) -> Option<f64> {
-    given(fields.get("radius"), 0.0, |n| number(decoder, n, "radius", Range::NotAbove(FARTHEST)))
+    or_default(fields.get("radius"), 0.0, |n| number(decoder, n, "radius", Range::NotAbove(FARTHEST)))
 }

@@ -5,7 +5,7 @@ use tyndall_document::{Decoder, Diagnostic, Fields, MISSING_FIELD, Node, Span, V
 use tyndall_shaders::phase::{PHASE_FUNCTIONS, PhaseFunction};
 use tyndall_shaders::scene::{HeightFog, Phase};
 
-use super::{given, parts_of, path};
+use super::{or_default, parts_of, path};
 use crate::field::{Fields as PluginFields, Holder};
 use crate::model::Medium;
 use crate::read::{COORDINATE, EXTINCTION, LENGTH, POWER, Range, SceneReader, number, vector};
@@ -32,13 +32,13 @@ pub(crate) struct MediumDraft {
 pub(super) fn medium(decoder: &mut SceneReader<'_>, node: &Node) -> Option<MediumDraft> {
     let (fields, own) = decoder.fields_of(Holder::Medium, node, "a medium", FIELDS)?;
     let mut colour = |name: &str, default: DVec3, range: Range| {
-        given(fields.get(name), default, |n| vector(decoder, n, name, range))
+        or_default(fields.get(name), default, |n| vector(decoder, n, name, range))
     };
     let extinction = colour("extinction", DVec3::ZERO, EXTINCTION);
     let albedo = colour("albedo", DVec3::ONE, Range::Unit);
     let ambient = colour("ambient", DVec3::ZERO, POWER);
     let emission = colour("emission", DVec3::ZERO, POWER);
-    let phase = given(fields.get("phase"), PhaseDraft::Known(Phase::Isotropic), |n| phase(decoder, n));
+    let phase = or_default(fields.get("phase"), PhaseDraft::Known(Phase::Isotropic), |n| phase(decoder, n));
     let height_fog = height_fog(decoder, &fields);
     let (phase, phase_file) = match phase? {
         PhaseDraft::Known(phase) => (phase, None),
@@ -51,7 +51,7 @@ pub(super) fn medium(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Mediu
 
 fn height_fog(decoder: &mut Decoder, fields: &Fields) -> Option<HeightFog> {
     let base = fields.get("base_height");
-    let base_height = given(base, 0.0, |n| number(decoder, n, "base_height", COORDINATE));
+    let base_height = or_default(base, 0.0, |n| number(decoder, n, "base_height", COORDINATE));
     let Some(node) = fields.get("scale_height") else {
         let Some(base) = base else { return Some(HeightFog::NONE) };
         let message = "`base_height` says where the medium has its own extinction, and no `scale_height` how it falls";

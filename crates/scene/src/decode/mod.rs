@@ -51,18 +51,18 @@ pub(crate) fn scene(mut reader: SceneReader<'_>, root: &Node) -> Option<Draft> {
     let decoder = &mut reader;
     let (fields, own) = decoder.fields_of(Holder::Scene, root, "a scene", SCENE_FIELDS)?;
     let none = CameraDraft::Model { vertical_fov: None };
-    let camera = given(fields.get("camera"), none, |n| camera::camera(decoder, n));
-    let medium = given(fields.get("medium"), None, |n| medium::medium(decoder, n).map(Some));
-    let background = given(fields.get("background"), DVec3::ZERO, |n| vector(decoder, n, "background", POWER));
-    let lights = given(fields.get("lights"), None, |n| lights::lights(decoder, n).map(Some));
-    let objects = given(fields.get("objects"), Vec::new(), |n| objects::objects(decoder, n));
+    let camera = or_default(fields.get("camera"), none, |n| camera::camera(decoder, n));
+    let medium = or_default(fields.get("medium"), None, |n| medium::medium(decoder, n).map(Some));
+    let background = or_default(fields.get("background"), DVec3::ZERO, |n| vector(decoder, n, "background", POWER));
+    let lights = or_default(fields.get("lights"), None, |n| lights::lights(decoder, n).map(Some));
+    let objects = or_default(fields.get("objects"), Vec::new(), |n| objects::objects(decoder, n));
     let (camera, medium, background) = (camera?, medium?, background?);
     let (lights, objects, fields) = (lights?, objects?, own?);
     Some(Draft { camera, medium, background, lights, objects, fields, files: reader.into_files() })
 }
 
 /// The default where a field is left out, else what is read of it.
-fn given<T>(node: Option<&Node>, default: T, read: impl FnOnce(&Node) -> Option<T>) -> Option<T> {
+fn or_default<T>(node: Option<&Node>, default: T, read: impl FnOnce(&Node) -> Option<T>) -> Option<T> {
     match node {
         Some(node) => read(node),
         None => Some(default),

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use tyndall_document::{Decoder, Diagnostic, Fields, Node, OUT_OF_RANGE, Span, Value};
 
-use super::{Reader, given, parts_of, path, variant};
+use super::{Reader, or_default, parts_of, path, variant};
 use crate::animate::Animated;
 use crate::codes::{BRIGHTER_THAN_WHITE, NAMED_MATERIALS};
 use crate::field::{Fields as PluginFields, Holder};
@@ -59,14 +59,14 @@ pub(super) fn objects(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Vec<
 fn object(decoder: &mut SceneReader<'_>, node: &Node) -> Option<ObjectDraft> {
     let (fields, own) = decoder.fields_of(Holder::Object, node, "an object", OBJECT_FIELDS)?;
     let mesh = fields.required(decoder, "mesh").and_then(|n| mesh(decoder, n));
-    let translation = given(fields.get("translation"), Animated::Constant(DVec3::ZERO), |n| {
+    let translation = or_default(fields.get("translation"), Animated::Constant(DVec3::ZERO), |n| {
         animated_place(decoder, n, "translation")
     });
-    let rotation = given(fields.get("rotation"), DQuat::IDENTITY, |n| rotation(decoder, n));
-    let scale = given(fields.get("scale"), DVec3::ONE, |n| scale(decoder, n));
-    let material = given(fields.get("material"), None, |n| material(decoder, n).map(Some));
-    let materials = given(fields.get("materials"), Vec::new(), |n| materials(decoder, n, &fields));
-    let casts_shadow = given(fields.get("casts_shadow"), true, |n| decoder.bool(n));
+    let rotation = or_default(fields.get("rotation"), DQuat::IDENTITY, |n| rotation(decoder, n));
+    let scale = or_default(fields.get("scale"), DVec3::ONE, |n| scale(decoder, n));
+    let material = or_default(fields.get("material"), None, |n| material(decoder, n).map(Some));
+    let materials = or_default(fields.get("materials"), Vec::new(), |n| materials(decoder, n, &fields));
+    let casts_shadow = or_default(fields.get("casts_shadow"), true, |n| decoder.bool(n));
     Some(ObjectDraft {
         span: node.span,
         mesh: mesh?,
@@ -98,11 +98,13 @@ fn scale(decoder: &mut Decoder, node: &Node) -> Option<DVec3> {
 fn material(decoder: &mut SceneReader<'_>, node: &Node) -> Option<Material> {
     let (fields, own) = decoder.fields_of(Holder::Material, node, "a material", MATERIAL_FIELDS)?;
     let default = Material::default();
-    let mut color = |name, default| given(fields.get(name), default, |n| vector(decoder, n, name, Range::NotNegative));
+    let mut color =
+        |name, default| or_default(fields.get(name), default, |n| vector(decoder, n, name, Range::NotNegative));
     let diffuse = color("diffuse", default.diffuse);
     let specular = color("specular", default.specular);
-    let shininess =
-        given(fields.get("shininess"), default.shininess, |n| number(decoder, n, "shininess", Range::NotAbove(1e6)));
+    let shininess = or_default(fields.get("shininess"), default.shininess, |n| {
+        number(decoder, n, "shininess", Range::NotAbove(1e6))
+    });
     if let (Some(diffuse), Some(node)) = (diffuse, fields.get("diffuse"))
         && diffuse.max_element() > 1.0
     {

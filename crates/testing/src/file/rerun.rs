@@ -44,7 +44,7 @@ pub fn check_run(
 /// anyway.
 fn says_something(file: &TestFile, expect: &[&Expectation], own: &Loaded, other: &Loaded, out: &mut Diagnostics) {
     let Some(expected) = expect.iter().find(|expected| expected.change.holds_of_the_same_run()) else { return };
-    if changes(&own.graph, &other.graph) || told(own.scene.as_ref()) != told(other.scene.as_ref()) {
+    if changes(&own.graph, &other.graph) || digest(own.scene.as_ref()) != digest(other.scene.as_ref()) {
         return;
     }
     let message = format!("a run sets what is set anyway, and so this of `{}` holds whatever comes out", expected.port);
@@ -61,16 +61,16 @@ fn changes(own: &Graph, other: &Graph) -> bool {
 }
 
 /// All that a scene says.
-fn told(scene: Option<&Scene>) -> u64 {
-    struct Told(Digest);
-    impl std::fmt::Write for Told {
+fn digest(scene: Option<&Scene>) -> u64 {
+    struct DebugDigest(Digest);
+    impl std::fmt::Write for DebugDigest {
         fn write_str(&mut self, text: &str) -> std::fmt::Result {
             self.0.bytes(text.as_bytes());
             Ok(())
         }
     }
-    let mut told = Told(Digest::default());
+    let mut written = DebugDigest(Digest::default());
     // Writing into it cannot fail.
-    let _ = write!(told, "{scene:?}");
-    told.0.finish()
+    let _ = write!(written, "{scene:?}");
+    written.0.finish()
 }

@@ -104,11 +104,11 @@ fn thumbnails(outcome: &Outcome, pass: &PassOutcome, folder: &str) -> Vec<String
         let said = if port.checks.is_empty() { "nothing was checked of it" } else { state(port.state) };
         thumbnail(&port.name, port.frame, folder, (&format!("#{}", anchor(port)), class(port), said))
     });
-    let untapped = outcome.untapped.iter().filter(|port| port.pass == pass.name).map(|port| {
+    let unchecked = outcome.unchecked.iter().filter(|port| port.pass == pass.name).map(|port| {
         let target = format!("{folder}/{}.{}.actual.png", port.name, port.frame);
         thumbnail(&port.name, port.frame, folder, (&target, "unseen", "the test does not look at it"))
     });
-    tapped.chain(untapped).collect()
+    tapped.chain(unchecked).collect()
 }
 
 fn class(port: &PortOutcome) -> &'static str {

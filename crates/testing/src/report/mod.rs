@@ -39,7 +39,7 @@ struct PortPictures {
 
 impl Pictures {
     fn write(folder: &Folder<'_>, outcome: &Outcome) -> Result<Self, Error> {
-        outcome.untapped.iter().try_for_each(|port| folder.untapped(port))?;
+        outcome.unchecked.iter().try_for_each(|port| folder.unchecked(port))?;
         let mut ports = Vec::with_capacity(outcome.ports.len());
         for port in &outcome.ports {
             let mut failed = Vec::new();
@@ -89,8 +89,9 @@ impl Report {
     pub fn add(&self, outcome: &mut Outcome) -> Result<(), Error> {
         let name = self.name(outcome);
         // What nobody asked for and fails all the same is told like what somebody did.
-        let told = |name: &str, frame: u32| outcome.ports.iter().any(|port| port.name == name && port.frame == frame);
-        outcome.untapped.retain(|port| !told(&port.name, port.frame));
+        let is_reported =
+            |name: &str, frame: u32| outcome.ports.iter().any(|port| port.name == name && port.frame == frame);
+        outcome.unchecked.retain(|port| !is_reported(&port.name, port.frame));
         let shown = Pictures::write(&Folder { report: &self.folder, name: &name }, outcome)?;
         self.folder.write(&format!("{name}.html"), page::test(outcome, &name, &shown).as_bytes())?;
         let stem = |shown: &Shown| format!("{name}/{}.actual.png", shown.stem);

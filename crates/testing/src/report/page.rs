@@ -91,10 +91,10 @@ pub(super) fn test(outcome: &Outcome, folder: &str, shown: &Pictures) -> String 
     body += &graph(outcome, folder);
     let (failed, held): (Vec<_>, Vec<_>) =
         outcome.relations.iter().zip(&shown.relations).partition(|(relation, _)| relation.state != State::Passed);
-    let told = |relations: Vec<(&RelationOutcome, &Option<Shown>)>| -> String {
+    let described = |relations: Vec<(&RelationOutcome, &Option<Shown>)>| -> String {
         relations.into_iter().map(|(of, shown)| relation(of, shown.as_ref(), folder)).collect()
     };
-    body += &told(failed);
+    body += &described(failed);
     let mut ports: Vec<_> = outcome.ports.iter().zip(&shown.ports).collect();
     ports.sort_by_key(|(port, _)| match port.state {
         State::Guilty => 0,
@@ -108,7 +108,7 @@ pub(super) fn test(outcome: &Outcome, folder: &str, shown: &Pictures) -> String 
     if !held.is_empty() {
         body += "<h2>From run to run</h2>\n";
     }
-    body += &told(held);
+    body += &described(held);
     body += "</main>\n<footer>keys: <kbd>j</kbd> <kbd>k</kbd> next and previous port, <kbd>←</kbd> <kbd>→</kbd> the slider, <kbd>t</kbd> light or dark</footer>\n";
     whole(&name, &body)
 }

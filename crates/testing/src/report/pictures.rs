@@ -8,7 +8,7 @@ use tyndall_page::false_color::{NOT_A_NUMBER, Rgb, STEPS, of_difference};
 
 use crate::flip;
 use crate::metric::{ALPHA_TOLERANCE, Compared, Metric};
-use crate::outcome::{PortOutcome, Untapped};
+use crate::outcome::{PortOutcome, UncheckedPort};
 use crate::picture::Picture;
 
 /// Multiples of the tolerance at which failing pixels are shown.
@@ -60,7 +60,7 @@ impl Folder<'_> {
     }
 
     /// A port that the test does not look at.
-    pub fn untapped(&self, port: &Untapped) -> Result<(), Error> {
+    pub fn unchecked(&self, port: &UncheckedPort) -> Result<(), Error> {
         self.save(&format!("{}.{}", port.name, port.frame), "actual", &Exposure::of(&port.picture).shown(&port.picture))
     }
 

@@ -20,7 +20,7 @@ pub struct Browser {
     /// Of the page; empty before there is one.
     session: String,
     calls: u64,
-    /// Everything that the browser has told, in order.
+    /// Everything that the browser has messages, in order.
     pub events: Vec<Value>,
     _profile: TempDir,
 }
@@ -105,12 +105,12 @@ impl Browser {
         }
         self.socket.send(Message::text(message.to_string())).unwrap();
         loop {
-            let told = self.listen();
-            if told["id"] == id {
-                assert!(told["error"].is_null(), "{method}: {}", told["error"]);
-                return told["result"].clone();
+            let messages = self.listen();
+            if messages["id"] == id {
+                assert!(messages["error"].is_null(), "{method}: {}", messages["error"]);
+                return messages["result"].clone();
             }
-            self.events.push(told);
+            self.events.push(messages);
         }
     }
 
@@ -136,8 +136,8 @@ impl Browser {
         let start = Instant::now();
         while !self.events[before..].iter().any(|event| event["method"] == "Page.loadEventFired") {
             assert!(start.elapsed() < PATIENCE, "the page does not load");
-            let told = self.listen();
-            self.events.push(told);
+            let messages = self.listen();
+            self.events.push(messages);
         }
     }
 

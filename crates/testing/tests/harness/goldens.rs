@@ -210,8 +210,8 @@ fn goldens_of_another_class_of_adapters_are_blessed_only_when_told() {
     fs::write(&path, records.replace(&format!("adapter: {here:?}"), &format!("adapter: {other:?}"))).unwrap();
     chain.set_line("five", HALF);
     says(&chain.run(&bless()), "--any-adapter");
-    let told = chain.run(&Options { bless_any_adapter: true, ..bless() });
-    assert!(told.passed() && told.blessed.len() == 2, "{} {:?}", told.text(), told.blessed);
+    let messages = chain.run(&Options { bless_any_adapter: true, ..bless() });
+    assert!(messages.passed() && messages.blessed.len() == 2, "{} {:?}", messages.text(), messages.blessed);
 }
 
 /// A relation says how a port changes; broken, the pass that it looks at is named.

@@ -133,9 +133,9 @@ fn a_filter_leaves_no_pass_without_a_picture() {
     let tap = Some("five.result".to_owned());
     let outcome = chain.run(&Options { for_report: true, tap, ..Options::default() });
     assert!(outcome.passed() && outcome.ports.len() == 1, "{}", outcome.text());
-    let names: Vec<&str> = outcome.untapped.iter().map(|port| port.name.as_str()).collect();
+    let names: Vec<&str> = outcome.unchecked.iter().map(|port| port.name.as_str()).collect();
     assert_eq!(names, ["start.result", "one.result", "two.result", "three.result", "four.result", "aside.result"]);
-    assert!(chain.plain().untapped.is_empty(), "they are rendered for a report alone");
+    assert!(chain.plain().unchecked.is_empty(), "they are rendered for a report alone");
 }
 
 /// What a pass took when it first ran is what it spares where it need not run again.
@@ -283,8 +283,8 @@ fn a_test_that_could_not_run_has_a_page() {
     let index = report.finish("an adapter", &[outcome], &[]).unwrap();
     let pages: Vec<PathBuf> =
         fs::read_dir(index.parent().unwrap()).unwrap().map(|entry| entry.unwrap().path()).collect();
-    let told = pages.iter().filter(|page| page.extension().is_some_and(|suffix| suffix == "html"));
-    let texts: Vec<String> = told.map(|page| fs::read_to_string(page).unwrap()).collect();
+    let messages = pages.iter().filter(|page| page.extension().is_some_and(|suffix| suffix == "html"));
+    let texts: Vec<String> = messages.map(|page| fs::read_to_string(page).unwrap()).collect();
     assert!(texts.len() == 2 && texts.iter().any(|text| text.contains("matches no port of the graph")), "{pages:?}");
 }
 

@@ -154,18 +154,18 @@ fn transforms_that_are_no_numbers_are_refused() {
         desk.put("bad.scene.ron", &text.replace(", (mesh: File(\"mesh.gltf\"), translation: (0.0, 1.2, 0.0))", ""));
         let drawn = desk.try_draw(&graph, "bad.scene.ron", (8, 6), &["radiance"], &[]);
         let Err(error) = drawn else { panic!("{object} is drawn") };
-        let told = error.to_string();
-        assert!(matches!(error, Error::Mistakes(_)), "{object}: {told}");
-        assert!(told.contains("bad.scene.ron:9:") && told.contains("error["), "{object}: {told}");
+        let messages = error.to_string();
+        assert!(matches!(error, Error::Mistakes(_)), "{object}: {messages}");
+        assert!(messages.contains("bad.scene.ron:9:") && messages.contains("error["), "{object}: {messages}");
     }
 }
 
-/// Of as many lights as there are bits for each shadows surfaces, and one more is told.
+/// Of as many lights as there are bits for each shadows surfaces, and one more is messages.
 #[test]
 fn lights_without_a_bit_are_told() {
     let desk = Desk::new();
     let graph = shipped("volumetric-shadows");
-    let told = |count: u32| {
+    let messages = |count: u32| {
         let mut lights = String::new();
         for index in 0..count {
             let x = f64::from(index) * 0.015 - 1.0;
@@ -174,11 +174,11 @@ fn lights_without_a_bit_are_told() {
         let setting = format!("scene.lights=[{lights}]");
         desk.warnings(&desk.request(&graph, None, Some((8, 6)), &[&setting, "scattered=false"]))
     };
-    assert!(!told(128).contains("[limit]"), "{}", told(128));
+    assert!(!messages(128).contains("[limit]"), "{}", messages(128));
     assert!(
-        told(129).contains("warning[limit]: pass `air`: there are more lights than `lit` has bits for"),
+        messages(129).contains("warning[limit]: pass `air`: there are more lights than `lit` has bits for"),
         "{}",
-        told(129)
+        messages(129)
     );
 }
 
@@ -192,13 +192,16 @@ fn loops_that_the_driver_ends_are_told() {
         let mut drawn = desk.try_draw(&graph, "test.scene.ron", (8, 6), &["airlight"], &settings).unwrap();
         (text(&drawn.warnings), drawn.pictures.remove(0))
     };
-    let (told, right) = march("16384");
-    assert!(!told.contains("[unfinished]"), "{told}");
-    let (told, many) = march("65536");
+    let (messages, right) = march("16384");
+    assert!(!messages.contains("[unfinished]"), "{messages}");
+    let (messages, many) = march("65536");
     let error = error(&right, &many);
-    println!("error {error}: {told}");
-    if told.contains("[unfinished]") {
-        assert!(told.contains("warning[unfinished]: pass `air`: ") && told.contains("in 48 pixels"), "{told}");
+    println!("error {error}: {messages}");
+    if messages.contains("[unfinished]") {
+        assert!(
+            messages.contains("warning[unfinished]: pass `air`: ") && messages.contains("in 48 pixels"),
+            "{messages}"
+        );
     } else {
         assert!(error < 1e-3, "{error} and not a word");
     }

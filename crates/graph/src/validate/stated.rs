@@ -14,14 +14,14 @@ use crate::overrides::{Override, moved_to_argument};
 
 /// A value that the file or the command line gives.
 #[derive(Clone, Copy)]
-pub(super) struct Given<'a> {
+pub(super) struct Stated<'a> {
     pub node: &'a Node,
     pub source: &'a Arc<Source>,
     /// The argument of the command line that it came from.
     pub argument: Option<&'a str>,
 }
 
-impl<'a> Given<'a> {
+impl<'a> Stated<'a> {
     pub fn place(self) -> Place {
         match self.argument {
             Some(argument) => Place::Argument(argument.to_owned()),

@@ -10,10 +10,10 @@ use tyndall_plugin::{Numbers, Reference, ReferenceInput};
 use tyndall_shaders::scene::{Scene, Surfaces};
 
 /// What a reference has said, or why it could not.
-type Answer = Result<Arc<BTreeMap<&'static str, Numbers>>, String>;
+type ReferenceResult = Result<Arc<BTreeMap<&'static str, Numbers>>, String>;
 
 /// Asks references on the CPU for one session, and counts the time that it takes.
-pub(crate) struct Answers {
+pub(crate) struct CachedReferences {
     known: Arc<Mutex<Known>>,
     took: Mutex<Duration>,
 }
@@ -22,21 +22,21 @@ pub(crate) struct Answers {
 /// others may ask something else.
 #[derive(Default)]
 pub(crate) struct Known {
-    answers: HashMap<u64, Arc<OnceLock<Answer>>>,
+    answers: HashMap<u64, Arc<OnceLock<ReferenceResult>>>,
     scenes: Distinct<Scene>,
     surfaces: Distinct<Surfaces>,
     /// Of plugins, with their places among all that can hold some.
     fields: Distinct<Vec<(usize, Fields)>>,
 }
 
-impl Answers {
+impl CachedReferences {
     /// Shares what is known with other sessions.
     pub fn sharing(known: &Arc<Mutex<Known>>) -> Self {
         Self { known: known.clone(), took: Mutex::default() }
     }
 
     /// What the reference of a pass says of these inputs.
-    pub fn of(&self, pass: &str, reference: Reference, input: &ReferenceInput<'_>) -> Answer {
+    pub fn of(&self, pass: &str, reference: Reference, input: &ReferenceInput<'_>) -> ReferenceResult {
         let answer = locked(&self.known).answer(pass, input);
         answer.get_or_init(|| reference(input).map(Arc::new)).clone()
     }
@@ -61,7 +61,7 @@ pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 
 impl Known {
     /// The answer to a question, which nobody may have worked out yet.
-    fn answer(&mut self, pass: &str, input: &ReferenceInput<'_>) -> Arc<OnceLock<Answer>> {
+    fn answer(&mut self, pass: &str, input: &ReferenceInput<'_>) -> Arc<OnceLock<ReferenceResult>> {
         let question = self.question(pass, input);
         self.answers.entry(question).or_default().clone()
     }
@@ -160,7 +160,7 @@ mod tests {
 
     #[test]
     fn measured_phase_functions_of_equal_length_have_answers_of_their_own() {
-        let answers = Answers::sharing(&Arc::default());
+        let answers = CachedReferences::sharing(&Arc::default());
         let of = |forward_peak: f64| {
             let scene = scene(table(forward_peak));
             answers.of("pass", forward, &input(Some(&scene))).expect("it has a scene")["p"].exact()[0]
@@ -186,7 +186,7 @@ mod tests {
         extension.add_field(&GLOW);
         let mut extensions = Extensions::default();
         extensions.add("glow", extension).expect("nothing clashes");
-        let (answers, extensions) = (Answers::sharing(&Arc::default()), Arc::new(extensions));
+        let (answers, extensions) = (CachedReferences::sharing(&Arc::default()), Arc::new(extensions));
         let of = |value: &str, time: f64| {
             let text = format!("(camera: (position: (0, 0, 1), look_at: (0, 0, 0)), glow: {value})");
             let source = Source::new("glow.scene.ron", text);
@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn references_of_two_threads_run_side_by_side() {
-        let answers = Answers::sharing(&Arc::default());
+        let answers = CachedReferences::sharing(&Arc::default());
         let ask = |pass: &str| answers.of(pass, meets_another, &input(None));
         let both = std::thread::scope(|scope| ["a", "b"].map(|pass| scope.spawn(move || ask(pass))).map(|a| a.join()));
         assert!(both.iter().all(|answer| answer.as_ref().is_ok_and(|answer| answer.is_ok())));

@@ -8,9 +8,9 @@ use crate::outcome::Outcome;
 
 /// What has been told in a run: mistakes that stop many tests, those of a broken shader say, by the test that told them.
 #[derive(Debug, Default)]
-pub struct Told(BTreeMap<String, String>);
+pub struct ShownMistakes(BTreeMap<String, String>);
 
-impl Told {
+impl ShownMistakes {
     /// What a person reads about a failed test, with mistakes that an earlier test has told left to that.
     pub fn text(&mut self, outcome: &Outcome) -> String {
         outcome.text_with(&mut |mistakes| {
