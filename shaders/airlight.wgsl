@@ -35,13 +35,8 @@ struct PieceOfAirlight {
 
 // Airlight of one piece of one lobe of a light over `way` metres of the ray, infinite to the sky, and what comes next.
 fn airlight(cursor: Cursor, light: Light, medium: Medium, phase: Phase, ray: Ray, way: f32, nodes: u32) -> PieceOfAirlight {
-    return airlight_between(cursor, light, medium, phase, ray, vec2<f32>(0.0, way), nodes);
-}
-
-// The same of a part of the ray, from x to y metres.
-fn airlight_between(cursor: Cursor, light: Light, medium: Medium, phase: Phase, ray: Ray, part: vec2<f32>, nodes: u32) -> PieceOfAirlight {
-    let found = piece_at(cursor, light, medium, phase, ray, part);
-    return airlight_of_piece(found, piece_airlight(found.piece, nodes), light, medium, phase, ray, part);
+    let found = piece_at(cursor, light, medium, phase, ray, vec2<f32>(0.0, way));
+    return airlight_of_piece(found, piece_airlight(found.piece, nodes), opacity(medium, way), light, medium, phase, ray);
 }
 
 // A piece where a cursor stands, and where it stands behind that.
@@ -78,17 +73,16 @@ fn piece_at(cursor: Cursor, light: Light, medium: Medium, phase: Phase, ray: Ray
     return PieceAt(piece, chunk.interval, cursor.lobe, Cursor(next_light, next_lobe, next_start));
 }
 
-// What `piece_airlight` gives of it, as radiance; a directional light needs none of that.
-fn airlight_of_piece(found: PieceAt, sum: vec3<f32>, light: Light, medium: Medium, phase: Phase, ray: Ray, part: vec2<f32>) -> PieceOfAirlight {
+// What `piece_airlight` gives of it, as radiance; a directional light needs none of that, but what of the medium is seen there:
+// the difference of the transmittances to both ends.
+fn airlight_of_piece(found: PieceAt, sum: vec3<f32>, seen: vec3<f32>, light: Light, medium: Medium, phase: Phase, ray: Ray) -> PieceOfAirlight {
     let scattered = finite(medium.scattering * light.intensity * sum);
-    let directional = directional_airlight(light, lobe_of(phase, found.lobe), medium, ray, part);
+    let directional = directional_airlight(light, lobe_of(phase, found.lobe), medium, ray, seen);
     return PieceOfAirlight(select(scattered, directional, light.kind == DIRECTIONAL), found.next);
 }
 
 // Airlight of one lobe of a directional light, whose irradiance E reaches every point unattenuated:
 // albedo p E (e^(-sigma_t x0) - e^(-sigma_t x1)), and 0 where there is no extinction.
-fn directional_airlight(light: Light, lobe: Lobe, medium: Medium, ray: Ray, part: vec2<f32>) -> vec3<f32> {
-    let near = min(part.x, ENDLESS);
-    let seen = transmittance(medium, near) * opacity(medium, max(part.y - near, 0.0));
+fn directional_airlight(light: Light, lobe: Lobe, medium: Medium, ray: Ray, seen: vec3<f32>) -> vec3<f32> {
     return albedo(medium) * light.intensity * directional_phase(light, lobe, ray) * seen;
 }

@@ -132,8 +132,7 @@ fn begun(before: Gathered, light: u32) -> Gathered {
 }
 
 fn gather(before: Gathered, light: Light) -> Gathered {
-    let part = vec2<f32>(0.0, before.drawn.x);
-    let piece = airlight_between(before.next, light, medium, phase, before.ray, part, nodes);
+    let piece = airlight(before.next, light, medium, phase, before.ray, before.drawn.x, nodes);
     var after = before;
     after.radiance += before.drawn.share * piece.radiance;
     after.next = piece.next;

@@ -66,11 +66,13 @@ fn piece_airlight_by_few(piece: Piece, nodes: u32, short: bool) -> vec3<f32> {
     return piece.weight * sum;
 }
 
-// `airlight_between` by four nodes where that does or `roughly` is enough; but of a whole ray as without shadows, to the last
-// bit.
+// `airlight` of a part of the ray, from x to y metres, by four nodes where that does or `roughly` is enough; but of a whole ray
+// as without shadows, to the last bit.
 fn airlight_of_part(cursor: Cursor, light: Light, medium: Medium, phase: Phase, ray: Ray, part: vec2<f32>, way: f32, nodes: u32, roughly: bool) -> PieceOfAirlight {
     let found = piece_at(cursor, light, medium, phase, ray, part);
     let is_whole = part.x <= 0.0 && part.y >= way;
     let sum = piece_airlight_by_few(found.piece, nodes, roughly || (!is_whole && is_short(found, light, medium)));
-    return airlight_of_piece(found, sum, light, medium, phase, ray, part);
+    let near = min(part.x, ENDLESS);
+    let seen = transmittance(medium, near) * opacity(medium, max(part.y - near, 0.0));
+    return airlight_of_piece(found, sum, seen, light, medium, phase, ray);
 }
