@@ -112,6 +112,9 @@ fn is_in_range(param: &ParamDescriptor) -> bool {
     }
 }
 
+/// Texels on a side of a table.
+const SMALL_TABLE: f64 = 24.0;
+
 /// The pass as `tested`, all its inputs fed: from a geometry buffer's port of the same name, from passes that make what
 /// only they make (values, tables, volumes), or else with a colour.
 fn graph(registry: &Registry, descriptor: &PassDescriptor, picture: &Path) -> String {
@@ -155,13 +158,21 @@ fn add(
         };
         inputs.push(format!("\"{}\": {source:?}", port.name));
     }
-    let file = descriptor.params.iter().find(|param| matches!(param.default, ParamValue::File(_)));
-    let params = file.map(|param| format!("\"{}\": {:?}", param.name, picture.display().to_string()));
+    let params = descriptor.params.iter().filter_map(|param| match &param.default {
+        ParamValue::File(_) => Some(format!("\"{}\": {:?}", param.name, picture.display().to_string())),
+        // a small table is made as a large one is
+        ParamValue::Integer(_) if param.name == "size" => {
+            let least = param.accepts.range().map_or(SMALL_TABLE, |(low, _)| SMALL_TABLE.max(low));
+            Some(format!("\"size\": {least}"))
+        }
+        _ => None,
+    });
+    let params = params.collect::<Vec<_>>().join(", ");
     let text = format!(
         "{name:?}: (use: {:?}, inputs: {{ {} }}, params: {{ {} }}),\n",
         descriptor.name,
         inputs.join(", "),
-        params.unwrap_or_default()
+        params
     );
     passes.insert(name.to_owned(), text);
 }
