@@ -45,19 +45,19 @@ const GAMMA_NODES: u32 = 48u;
 const SHARP: f32 = 8.0;
 const GAMMA_REACH: f32 = 11.0;  // of s, at an end: e^-11 of the piece is left out there
 
-fn gamma_nodes(n: f32) -> u32 {
-    return select(2u * GAMMA_NODES, GAMMA_NODES, n >= SHARP);
-}
-
 // What a texel stands for.
 struct SurfacePlace {
     depth: f32,                 // T
     angle: f32,                 // theta_s, rad
 }
 
+fn depth_of_texel(texel: u32, size: u32) -> f32 {
+    return TABLE_DEPTH * f32(texel) / f32(size - 1u);
+}
+
 fn place_of_texel(texel: vec2<u32>, size: vec2<u32>) -> SurfacePlace {
-    let share = vec2<f32>(texel) / vec2<f32>(size - 1u);
-    return SurfacePlace(TABLE_DEPTH * share.x, HALF_PI * share.y);
+    let angle = HALF_PI * f32(texel.y) / f32(size.y - 1u);
+    return SurfacePlace(depth_of_texel(texel.x, size.x), angle);
 }
 
 fn lobe_at(a: f32, b: f32, n: f32, phi: f32) -> f32 {

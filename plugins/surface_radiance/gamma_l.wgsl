@@ -14,7 +14,7 @@ var table: texture_storage_2d<rgba32float, write>;
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = vec2<u32>(params.size, 1u);
-    let depth = place_of_texel(id.xy, size).depth;
+    let depth = depth_of_texel(id.x, params.size);
     let scattering = phase;
     let width = least_width(scattering);
     var sum = vec4<f32>(0.0);

@@ -37,7 +37,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         }
         sum += ring.weight * along;
         i++;
-        if i >= gamma_nodes(n) { break; }
+        if i >= 2u * GAMMA_NODES || (i >= GAMMA_NODES && n >= SHARP) { break; }
     }
     if all(id.xy < size) {
         textureStore(table, id.xy, vec4<f32>(sum * exp(-place.depth), 0.0, 0.0, 1.0));
