@@ -7,7 +7,7 @@
 #import "occluders.wgsl"
 
 // Part of the way at which it is asked: before the surface, so that it does not hide itself from what it faces.
-const BEFORE_SURFACE: f32 = 0.9999;
+const BEFORE_SURFACE: f32 = 0.99999;
 // The other points that are asked for at once follow in steps of this part of the way: near, so that few boxes are looked into,
 // and not so near that the plane of all of them is lost in rounding.
 const NEXT_POINT: f32 = 0.01;
